@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""Attacks the program: damaged parts of sweeps, runs killed at random instants in folders that hold another run, two sweeps in one folder,
-output that cannot be written, inputs that never end, hostile names. Nothing may be lost, mixed or believed in silence.
+"""Attacks the program: damaged parts of sweeps, runs killed at random instants in folders that hold another run, two
+sweeps in one folder, output that cannot be written, inputs that never end, hostile names. Nothing may be lost, mixed or
+believed in silence.
 
     adversary.py target/release/tune [--damaged 40] [--kills 20] [--pairs 8] [--mutated 40] [--seed 1]
 """
+
 import argparse, hashlib, os, pathlib, random, shutil, signal, stat, subprocess, sys, tempfile, time
 
 SWEEP = """
@@ -23,7 +25,8 @@ earthquakes = 20
 pga_g = { from = 0.1, to = 2.0, count = 12, spacing = "log" }
 """
 CASES = {
-    name: f'[structure]\nkind = "block"\nheight_m = {h}\nwidth_m = {w}\nmass_kg = 400.0\n[record]\nduration_s = 2.0\n[tuning]\naccuracy = 0.05\n'
+    name: f'[structure]\nkind = "block"\nheight_m = {h}\nwidth_m = {w}\nmass_kg = 400.0\n'
+    "[record]\nduration_s = 2.0\n[tuning]\naccuracy = 0.05\n"
     for name, h, w in [("a", 1.0, 0.5), ("b", 1.5, 0.6)]
 }
 QUICK = ["--quiet", "--no-front", "--no-figures"]
@@ -132,6 +135,7 @@ def kills(home):
             def writes():
                 there = os.stat(out / "parameters.json")
                 return any(out.glob(".unfinished-*")) or (there.st_mtime_ns, there.st_ino) != before
+
             while child.poll() is None and not writes():
                 pass
             time.sleep(dice.random() * 0.02 * (i % 4))
@@ -201,7 +205,11 @@ def output(home):
             code = subprocess.run([tune, *job, "--out", "output"], cwd=home, **more).returncode
             os.close(writer)
             there = (home / "output").is_dir() and files(home / "output") == expected
-            check(f"run with {what} {'closed' if closed else 'full'}", there and code == (0 if closed else 2), (code, there))
+            check(
+                f"run with {what} {'closed' if closed else 'full'}",
+                there and code == (0 if closed else 2),
+                (code, there),
+            )
     print("output that cannot be written: done")
 
 
@@ -209,8 +217,14 @@ def inputs(home):
     """Inputs that never end, and names that steer a terminal."""
     os.mkfifo(home / "fifo")
     uses = [
-        ["run", "{}"], ["run", "--record", "{}"], ["simulate", "--parameters", "{}"], ["record", "{}"], ["sweep", "{}"],
-        ["verify", "--parameters", "{}"], ["housner", "{}"], ["validate", "--parameters", "a/parameters.json", "{}"],
+        ["run", "{}"],
+        ["run", "--record", "{}"],
+        ["simulate", "--parameters", "{}"],
+        ["record", "{}"],
+        ["sweep", "{}"],
+        ["verify", "--parameters", "{}"],
+        ["housner", "{}"],
+        ["validate", "--parameters", "a/parameters.json", "{}"],
     ]
     for name in ["fifo", "/dev/zero", "/dev/urandom", "/dev/tty", "."]:
         for use in uses:
@@ -220,8 +234,13 @@ def inputs(home):
     hostile = "a\x1b[2Jb\x07c\u202ed\u2066e.txt"
     (home / hostile).write_text("# units: g\n" + "".join(f"{0.4 * (-1) ** (i // 25):.3f}\n" for i in range(300)))
     steers = [char.encode() for char in "\x1b\x07\u202e\u2066"]
-    for args in [["record", hostile, "--dt", "0.02"], ["run", "a.toml", "--record", hostile, "--dt", "0.02", "--out", "names", *QUICK],
-                 ["record", hostile + "x"], ["run", hostile + "x"], [hostile]]:
+    for args in [
+        ["record", hostile, "--dt", "0.02"],
+        ["run", "a.toml", "--record", hostile, "--dt", "0.02", "--out", "names", *QUICK],
+        ["record", hostile + "x"],
+        ["run", hostile + "x"],
+        [hostile],
+    ]:
         code = run(home, *args)
         for steer in steers:
             check(f"{args} on a terminal", steer not in code.stdout + code.stderr, code)
@@ -231,7 +250,26 @@ def inputs(home):
     print("inputs that never end, hostile names: done")
 
 
-WORDS = ["nan", "inf", "-1", "1e308", "1e-308", "0", "99999999999999999999", "[", "]", '"', "=", "\n", "\x00", "\u202e", "{", "}", ",", "true"]
+WORDS = [
+    "nan",
+    "inf",
+    "-1",
+    "1e308",
+    "1e-308",
+    "0",
+    "99999999999999999999",
+    "[",
+    "]",
+    '"',
+    "=",
+    "\n",
+    "\x00",
+    "\u202e",
+    "{",
+    "}",
+    ",",
+    "true",
+]
 
 
 def mutated(text):
@@ -257,9 +295,14 @@ def mutated(text):
 
 
 def mutations(home):
-    """Mutated files through the program: it ends, with one line where it refuses, in bounded memory, without a panic."""
+    """Mutated files through the program: it ends, with one line where it refuses, in bounded memory,
+    without a panic."""
     corpus = pathlib.Path(__file__).resolve().parent.parent / "fuzz/corpus"
-    seeds = [(kind, path.read_bytes()) for kind in ["case", "parameters", "record"] for path in sorted((corpus / kind).iterdir())]
+    seeds = [
+        (kind, path.read_bytes())
+        for kind in ["case", "parameters", "record"]
+        for path in sorted((corpus / kind).iterdir())
+    ]
     seeds += [("sweep", SWEEP.encode())] * 20
     job = home / "mutated"
     job.mkdir()
@@ -302,7 +345,10 @@ def mutations(home):
 
 def slurm(home):
     """A shell runs what the Slurm files say, whatever the folder's name."""
-    sweep, names = home / "sweep.toml", ["two words", "it's; touch hurt", "$(touch hurt) `touch hurt`", 'a"b\\c', "-n", "%A é"]
+    sweep, names = (
+        home / "sweep.toml",
+        ["two words", "it's; touch hurt", "$(touch hurt) `touch hurt`", 'a"b\\c', "-n", "%A é"],
+    )
     for name in names:
         folder = home / "cluster" / name
         folder.mkdir(parents=True)
@@ -312,7 +358,10 @@ def slurm(home):
         check(f"plan in {name!r}", code.returncode == 0, code)
         bin_ = home / "bin"
         bin_.mkdir(exist_ok=True)
-        (bin_ / "sbatch").write_text('#!/bin/sh\nfor script; do :; done\nfor i in 1 2; do SLURM_ARRAY_TASK_ID=$i sh "$script" >&2 || exit 1; done\necho 7\n')
+        (bin_ / "sbatch").write_text(
+            "#!/bin/sh\nfor script; do :; done\nfor i in 1 2; "
+            'do SLURM_ARRAY_TASK_ID=$i sh "$script" >&2 || exit 1; done\necho 7\n'
+        )
         (bin_ / "sbatch").chmod(0o755)
         env = {**os.environ, "PATH": f"{bin_}:{os.environ['PATH']}"}
         done = subprocess.run(["sh", str(out / "submit.sh")], cwd="/", env=env, capture_output=True)

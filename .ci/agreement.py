@@ -6,6 +6,7 @@ aframe.py stands on elastic legs of 1e13 N/m, which take 7 % off the k1 of 160 H
 
     agreement.py TUNE AFRAME RECORD TUNED.json
 """
+
 import csv, math, pathlib, subprocess, sys, tempfile
 
 LIMIT = 0.01
@@ -30,15 +31,38 @@ def main():
         passed = failed = 0
         for name, parameters in (("Table 1 as recovered", TABLE_1), ("tuned springs", tuned)):
             ours, theirs = folder / "ours.csv", folder / "theirs.csv"
-            subprocess.run([tune, "simulate", "--parameters", parameters, "--duration", "10", "--out", ours],
-                           check=True, stdout=subprocess.DEVNULL)
-            subprocess.run([sys.executable, aframe, "--parameters", parameters, "--record", record, "--duration", "10",
-                            "--dt", "2e-4", "--out", theirs], check=True, capture_output=True)
-            errors = [nrmse(x, y) for x, y in zip(columns(ours, "u_fem", "v_fem", "th_fem"), columns(theirs, "u", "v", "th"))]
+            subprocess.run(
+                [tune, "simulate", "--parameters", parameters, "--duration", "10", "--out", ours],
+                check=True,
+                stdout=subprocess.DEVNULL,
+            )
+            subprocess.run(
+                [
+                    sys.executable,
+                    aframe,
+                    "--parameters",
+                    parameters,
+                    "--record",
+                    record,
+                    "--duration",
+                    "10",
+                    "--dt",
+                    "2e-4",
+                    "--out",
+                    theirs,
+                ],
+                check=True,
+                capture_output=True,
+            )
+            errors = [
+                nrmse(x, y) for x, y in zip(columns(ours, "u_fem", "v_fem", "th_fem"), columns(theirs, "u", "v", "th"))
+            ]
             ok = all(e <= LIMIT for e in errors)
             passed, failed = passed + ok, failed + (not ok)
-            print(f"OpenSees agreement, {name}: NRMSE u {errors[0]:.2e}, v {errors[1]:.2e}, "
-                  f"theta {errors[2]:.2e} (limit {LIMIT}): {'ok' if ok else 'FAILED'}")
+            print(
+                f"OpenSees agreement, {name}: NRMSE u {errors[0]:.2e}, v {errors[1]:.2e}, "
+                f"theta {errors[2]:.2e} (limit {LIMIT}): {'ok' if ok else 'FAILED'}"
+            )
     print(f"{passed} passed, {failed} failed")
     sys.exit(failed > 0)
 

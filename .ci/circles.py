@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""No top-level module of a crate depends on itself by way of others: reads `crate::` paths and `use` trees of every crate's src/.
-Between crates Cargo allows no circle. Tests (`#[cfg(test)]` modules, files named tests) may look anywhere.
+"""No top-level module of a crate depends on itself by way of others: reads `crate::` paths and `use` trees of every
+crate's src/. Between crates Cargo allows no circle. Tests (`#[cfg(test)]` modules, files named tests) may look
+anywhere.
 
     circles.py
 """
+
 import graphlib, pathlib, re, sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -34,7 +36,9 @@ def graph(src):
         yield from (p for p in (src / name).rglob("*.rs") if p.stem != "tests" and "tests" not in p.parent.parts)
 
     here = lambda name: [p for p in files(name) if p.exists() and p.stem != "tests"]
-    return {name: set().union(*(used(p.read_text(), p.parent == src, names) for p in here(name))) - {name} for name in names}
+    return {
+        name: set().union(*(used(p.read_text(), p.parent == src, names) for p in here(name))) - {name} for name in names
+    }
 
 
 count = 0

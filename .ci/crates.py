@@ -4,6 +4,7 @@ fails; so does a drawing in docs/architecture.md that is not the one printed her
 
     crates.py [--check docs/architecture.md]
 """
+
 import pathlib, re, sys, tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -21,7 +22,10 @@ uses, idle = {}, []
 for name, manifest in ours.items():
     toml = tomllib.loads(manifest.read_text())
     uses[name] = [d for d in toml["dependencies"] if d in ours]
-    for table, parts in [("dependencies", ["src"]), ("dev-dependencies", ["src", "tests", "benches", "examples", "../fuzz"])]:
+    for table, parts in [
+        ("dependencies", ["src"]),
+        ("dev-dependencies", ["src", "tests", "benches", "examples", "../fuzz"]),
+    ]:
         text = text_of(manifest.parent, parts)
         for crate in toml.get(table, {}):
             word = crate.replace("-", "_")

@@ -3,26 +3,35 @@
 
     decks.py TUNE [--hz HZ | --max-hz HZ] [--steps N,N...] [--accuracy A] [--tcl] [--only NAME,...] [--scales S,...]
 
-TUNE is the program. Springs: those of `tune run` (--max-hz: capped), or with --hz the family of theory (one vertical chain scaled by the effective
-mass, stiff horizontals) at that Omega_n. --steps: other numbers of steps a sample at least (default: the deck's own). A row is
-one run: analyze steps, seconds of the whole process, NRMSE of u of OpenSees against `tune simulate` and Housner, of
-`tune simulate` against Housner, all up to the first overturning, how Housner's history moves with its width (* where it is ill-conditioned: then no error is
-judged), and when u first differs from ours by 1 % of its peak. Runs with the Python that starts it, which needs
-openseespy (and opensees, for --tcl). Exit code 1 if a deck stops, or a well-conditioned history is off: with the deck's own steps by more than 0.001
-from ours or (springs of `tune run`) 0.003 from Housner's, with other steps by more than 0.01 from ours.
+TUNE is the program. Springs: those of `tune run` (--max-hz: capped), or with --hz the family of theory (one vertical
+chain scaled by the effective mass, stiff horizontals) at that Omega_n. --steps: other numbers of steps a sample at
+least (default: the deck's own). A row is one run: analyze steps, seconds of the whole process, NRMSE of u of OpenSees
+against `tune simulate` and Housner, of `tune simulate` against Housner, all up to the first overturning, how Housner's
+history moves with its width (* where it is ill-conditioned: then no error is judged), and when u first differs from
+ours by 1 % of its peak. Runs with the Python that starts it, which needs openseespy (and opensees, for --tcl). Exit
+code 1 if a deck stops, or a well-conditioned history is off: with the deck's own steps by more than 0.001 from ours or
+(springs of `tune run`) 0.003 from Housner's, with other steps by more than 0.01 from ours.
 """
+
 import argparse, csv, json, math, pathlib, re, statistics, subprocess, sys, tempfile, time
 
 #         kind, height of the centre of mass, width [m], mass [kg]
-BODIES = {"A-frame 61 m": ("aframe", 61.0, 12.2, 680.1e3), "A-frame 35 m": ("aframe", 35.0, 7.7, 400e3),
-          "A-frame 20 m": ("aframe", 20.0, 4.0, 350e3), "A-frame 12 m": ("aframe", 12.0, 2.4, 350e3),
-          "A-frame 5 m": ("aframe", 5.0, 1.5, 1e3), "block 1.3 m": ("block", 1.3, 0.7, 2e3),
-          "block 1 m": ("block", 1.0, 0.5, 1e3), "block 0.3 m": ("block", 0.3, 0.2, 100.0),
-          "block 0.15 m": ("block", 0.15, 0.1, 10.0)}
+BODIES = {
+    "A-frame 61 m": ("aframe", 61.0, 12.2, 680.1e3),
+    "A-frame 35 m": ("aframe", 35.0, 7.7, 400e3),
+    "A-frame 20 m": ("aframe", 20.0, 4.0, 350e3),
+    "A-frame 12 m": ("aframe", 12.0, 2.4, 350e3),
+    "A-frame 5 m": ("aframe", 5.0, 1.5, 1e3),
+    "block 1.3 m": ("block", 1.3, 0.7, 2e3),
+    "block 1 m": ("block", 1.0, 0.5, 1e3),
+    "block 0.3 m": ("block", 0.3, 0.2, 100.0),
+    "block 0.15 m": ("block", 0.15, 0.1, 10.0),
+}
 
 
 def family(body, hz):
-    """Springs of theory at Omega_n: vertically K by stance, C and mu scaled by the effective mass; horizontally 8 times stiffer."""
+    """Springs of theory at Omega_n: vertically K by stance, C and mu scaled by the effective mass;
+    horizontally 8 times stiffer."""
     kind, h, width, m = body
     b = width / 2.0
     r2, alpha = h * h + b * b, math.atan2(b, h)
@@ -34,19 +43,34 @@ def family(body, hz):
     def chain(hz, k, c, mu):
         omega = 2.0 * math.pi * hz
         k1 = m * omega**2
-        return {"mu": mu, "f": math.sqrt(k / mu), "xi": c / (2.0 * mu), "omega_n_hz": hz, "k1_n_per_m": k1,
-                "k2_n_per_m": k * k1, "m2_kg": mu * m, "c_ns_per_m": c * m * omega}
+        return {
+            "mu": mu,
+            "f": math.sqrt(k / mu),
+            "xi": c / (2.0 * mu),
+            "omega_n_hz": hz,
+            "k1_n_per_m": k1,
+            "k2_n_per_m": k * k1,
+            "m2_kg": mu * m,
+            "c_ns_per_m": c * m * omega,
+        }
 
     k = min(0.3, 0.5 * (2.0 * math.pi * hz / p) ** -0.55 * alpha**-1.5)
-    return {"structure": {"kind": kind, "height_m": h, "width_m": width, "mass_kg": m, "rotational_inertia_kgm2": inertia},
-            "vertical": chain(hz, k, 0.6 * math.sqrt(effective), 0.66 * effective), "horizontal": chain(8.0 * hz, 1.0, 2.0, 0.3)}
+    return {
+        "structure": {"kind": kind, "height_m": h, "width_m": width, "mass_kg": m, "rotational_inertia_kgm2": inertia},
+        "vertical": chain(hz, k, 0.6 * math.sqrt(effective), 0.66 * effective),
+        "horizontal": chain(8.0 * hz, 1.0, 2.0, 0.3),
+    }
 
 
 def tuned(tune, body, folder, options):
     kind, h, width, m = body
     case = folder / "case.toml"
     case.write_text(f'[structure]\nkind = "{kind}"\nheight_m = {h}\nwidth_m = {width}\nmass_kg = {m}\n')
-    subprocess.run([tune, "run", case, "--no-figures", "--no-front", "--quiet", *options, "--out", folder / "run"], check=True, capture_output=True)
+    subprocess.run(
+        [tune, "run", case, "--no-figures", "--no-front", "--quiet", *options, "--out", folder / "run"],
+        check=True,
+        capture_output=True,
+    )
     return json.loads((folder / "run/parameters.json").read_text())
 
 
@@ -68,14 +92,19 @@ def one(tune, parameters, scale, steps, options, folder):
     simulated = subprocess.run([tune, "simulate", *common, "--out", ours], check=True, capture_output=True, text=True)
     told = simulated.stderr
     export = ["--accuracy", str(options.accuracy)] if options.accuracy else []
-    subprocess.run([tune, "export", *common, *export, "--format", "opensees-tcl" if options.tcl else "openseespy", "--out", deck],
-                   check=True, capture_output=True)
+    subprocess.run(
+        [tune, "export", *common, *export, "--format", "opensees-tcl" if options.tcl else "openseespy", "--out", deck],
+        check=True,
+        capture_output=True,
+    )
     if steps:
         text = deck.read_text()
         text = re.sub(r"^(STEPS_PER_SAMPLE = |set stepsPerSample )\d+", rf"\g<1>{steps}", text, flags=re.M)
         deck.write_text(text)
     began = time.perf_counter()
-    run = subprocess.run([sys.executable, *(["-m", "opensees"] if options.tcl else []), deck], capture_output=True, text=True)
+    run = subprocess.run(
+        [sys.executable, *(["-m", "opensees"] if options.tcl else []), deck], capture_output=True, text=True
+    )
     seconds = time.perf_counter() - began
     ill = "ILL-CONDITIONED" in told
     moved = re.search(r"width changes Housner's history by (\S+) %", told)
@@ -91,8 +120,21 @@ def one(tune, parameters, scale, steps, options, folder):
     late = re.search(r"WARNING: (\d+) touches", run.stdout)
     far = 0.01 * max(map(abs, fem))
     parted = next((f"{0.01 * i:.2f} s" for i, (a, b) in enumerate(zip(u, fem)) if abs(a - b) > far), "never")
-    return (int(taken[1]), int(taken[2]), int(late[1]) if late else 0, seconds, nrmse(u, fem[:len(u)]), nrmse(u, housner[:len(u)]),
-            nrmse(fem, housner[:len(fem)]), parted), max(map(abs, housner)), moved, ill
+    return (
+        (
+            int(taken[1]),
+            int(taken[2]),
+            int(late[1]) if late else 0,
+            seconds,
+            nrmse(u, fem[: len(u)]),
+            nrmse(u, housner[: len(u)]),
+            nrmse(fem, housner[: len(fem)]),
+            parted,
+        ),
+        max(map(abs, housner)),
+        moved,
+        ill,
+    )
 
 
 def main():
@@ -106,7 +148,10 @@ def main():
     parser.add_argument("--only", default=",".join(BODIES))
     parser.add_argument("--scales", default="1,1.5,2.5")
     options = parser.parse_args()
-    print("| structure | scale | width, 1 % | steps a sample | steps | repeated | late | s | ours | Housner | ours, Housner | parts from ours |")
+    print(
+        "| structure | scale | width, 1 % | steps a sample | steps | repeated | late | s | ours | Housner "
+        "| ours, Housner | parts from ours |"
+    )
     print("|---|---|---|---|---|---|---|---|---|---|---|---|")
     wrong, taken, times, every = 0, [], [], []
     for name in options.only.split(","):
@@ -125,19 +170,32 @@ def main():
                         continue
                     n, repeated, late, seconds, ours, housner, between, parted = found
                     rocks = peak > 0.0
-                    bad = rocks and not ill and (ours > (0.01 if steps else 0.001)
-                                                 or not (steps or options.hz or options.max_hz) and housner > 0.003)
+                    bad = (
+                        rocks
+                        and not ill
+                        and (
+                            ours > (0.01 if steps else 0.001)
+                            or not (steps or options.hz or options.max_hz)
+                            and housner > 0.003
+                        )
+                    )
                     wrong += bad
                     if not steps:
                         every.append(n)
                     if rocks and not steps:
                         taken.append(n)
                         times.append(seconds)
-                    print(start, f"{n} | {repeated} | {late} | {seconds:.1f} | {ours:.1e} | {housner:.1e} | {between:.1e} | {parted} |"
-                          + (" WRONG" if bad else ""), flush=True)
+                    print(
+                        start,
+                        f"{n} | {repeated} | {late} | {seconds:.1f} | {ours:.1e} | {housner:.1e} "
+                        f"| {between:.1e} | {parted} |" + (" WRONG" if bad else ""),
+                        flush=True,
+                    )
     if taken:
-        print(f"\nown steps, median of all: {statistics.median(every):g}; where it rocks: {statistics.median(taken):g} in "
-              f"{statistics.median(times):.1f} s")
+        print(
+            f"\nown steps, median of all: {statistics.median(every):g}; where it rocks: {statistics.median(taken):g} "
+            f"in {statistics.median(times):.1f} s"
+        )
     print(f"wrong: {wrong}")
     sys.exit(wrong > 0)
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""The histories in crates/frames/tests/elastic/data are those of an independent program, ../shared/reference/flexible_pier.py: run it again with the same
-arguments and compare, or write the files. Without it there is nothing to do. El Centro is tuning/records/IELC180.AT2.
+"""The histories in crates/frames/tests/elastic/data are those of an independent program,
+../shared/reference/flexible_pier.py: run it again with the same arguments and compare, or write the files. Without it
+there is nothing to do. El Centro is tuning/records/IELC180.AT2.
 
     elastic.py [--write] [NAME...]
 """

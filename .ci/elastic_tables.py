@@ -4,17 +4,19 @@
     elastic_tables.py TUNE            runs everything (some minutes) and writes the table anew
     elastic_tables.py --check         whether the page has the rows that this program writes
 """
+
 import csv, json, math, pathlib, subprocess, sys, tempfile
 
 PAGE = pathlib.Path(__file__).resolve().parent.parent / "docs" / "elastic.md"
 HEAD = (
-    "| structure | Omega_n/2 pi [Hz] | releases: rotation, drift | motions: rotation, drift | El Centro: rotation, drift | over [s] "
-    "| over 20 s: rotation, drift | touches a landing |"
+    "| structure | Omega_n/2 pi [Hz] | releases: rotation, drift | motions: rotation, drift "
+    "| El Centro: rotation, drift | over [s] | over 20 s: rotation, drift | touches a landing |"
 )
 PIER = dict(kind="pier", height_m=12, width_m=4, footing_height_m=1.5, damping_ratio=0.02)
 FRAME = dict(kind="frame", damping_ratio=0.03)
 STRUCTURES = {
-    f"pier of 12 m, 600 t on {footing // 1000} t, {hz} Hz": PIER | dict(mass_kg=600e3, footing_mass_kg=footing, frequency_hz=hz)
+    f"pier of 12 m, 600 t on {footing // 1000} t, {hz} Hz": PIER
+    | dict(mass_kg=600e3, footing_mass_kg=footing, frequency_hz=hz)
     for hz in (1.5, 2.0)
     for footing in (60_000, 200_000)
 } | {
@@ -46,7 +48,12 @@ def over_all(path):
     out = []
     for what in ("theta", "drift"):
         names = [name for name in rows[0] if name.startswith(f"{what}_reference")]
-        both = [(float(r[n]), float(r[n.replace("reference", "fem")])) for n in names for r in rows if r[n] and r[n.replace("reference", "fem")]]
+        both = [
+            (float(r[n]), float(r[n.replace("reference", "fem")]))
+            for n in names
+            for r in rows
+            if r[n] and r[n.replace("reference", "fem")]
+        ]
         out.append(math.sqrt(sum((a - b) ** 2 for a, b in both) / sum(a * a for a, _ in both)))
     return out
 
@@ -73,7 +80,9 @@ def main():
     text = PAGE.read_text()
     if sys.argv[1:] == ["--check"]:
         missing = [name for name in (HEAD, *STRUCTURES) if name not in text]
-        sys.exit("\n".join(f"{PAGE.name}: {name} is missing: run .ci/elastic_tables.py TUNE" for name in missing) or None)
+        sys.exit(
+            "\n".join(f"{PAGE.name}: {name} is missing: run .ci/elastic_tables.py TUNE" for name in missing) or None
+        )
     rows = []
     for name, structure in STRUCTURES.items():
         rows.append(row(sys.argv[1], name, structure))

@@ -1,30 +1,37 @@
 #!/usr/bin/env python3
-"""Histories of `crates/fixed-steps` beside those of OpenSees with the same model, springs, integrator and constant step.
+"""Histories of `crates/fixed-steps` beside those of OpenSees with the same model, springs,
+integrator and constant step.
 
-The models are our decks' (crates/decks/src/deck.py, elastic_deck.py, solver.py: their text is run here), stepped by `analyze(1, step)`. Needs
-openseespy, and `cargo build --release --example fixed_steps`.
+The models are our decks' (crates/decks/src/deck.py, elastic_deck.py, solver.py: their text is run here), stepped by
+`analyze(1, step)`. Needs openseespy, and `cargo build --release --example fixed_steps`.
 
     fixed_steps.py [--short]       exit code 1 if they do not agree
-    fixed_steps.py --medians N     the error of the recipe against Housner on N well-conditioned motions, here and in OpenSees
+    fixed_steps.py --medians N     the error of the recipe against Housner on N well-conditioned motions,
+                                   here and in OpenSees
 
-Errors are normalised root mean squares of u: over the 2 s that follow the first rise of the body (u above a thousandth of its peak), and over
-the whole; beside them what a change of the width by 1e-9 does to our own history, a thousand times: a history that moves by more than the limit
-is not predictable, and does not count. So does one that stops in both programs at the same step.
+Errors are normalised root mean squares of u: over the 2 s that follow the first rise of the body (u above a thousandth
+of its peak), and over the whole; beside them what a change of the width by 1e-9 does to our own history, a thousand
+times: a history that moves by more than the limit is not predictable, and does not count. So does one that stops in
+both programs at the same step.
 """
+
 import argparse, json, math, os, pathlib, subprocess, sys, time
 
 import openseespy.opensees as ops
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 GRAVITY = 9.81
-# Stiffness of the decks' legs and arms over that of the stiffest gap. Under HHT a foot, which has no mass, keeps a part alpha/(1 + alpha) of
-# what its leg gave in the step before, and lifts a little elsewhere than a rigid body's: the errors early on are inversely as the legs' stiffness.
+# Stiffness of the decks' legs and arms over that of the stiffest gap. Under HHT a foot, which has no mass, keeps a part
+# alpha/(1 + alpha) of what its leg gave in the step before, and lifts a little elsewhere than a rigid body's: the
+# errors early on are inversely as the legs' stiffness.
 LEG = 4.0
 EARLY, WHOLE = 1e-5, 2e-3
-# OpenSees' damping objects take the change of a force over a step for its rate: first-order accurate, where velocities are second-order. The
-# limits times the step in units of 1e-5 s; without integrators that keep stiff modes, under which such an object rings.
+# OpenSees' damping objects take the change of a force over a step for its rate: first-order accurate, where velocities
+# are second-order. The limits times the step in units of 1e-5 s; without integrators that keep stiff modes, under which
+# such an object rings.
 DAMPED = 1e5
-# Share of histories that may differ: a program stops where its iteration goes to and fro between contacts, and rounding may end that.
+# Share of histories that may differ: a program stops where its iteration goes to and fro between contacts,
+# and rounding may end that.
 DIFFERENT = 0.04
 # name here, OpenSees' own arguments
 INTEGRATORS = {
@@ -41,7 +48,9 @@ STEPS = (1e-2, 1e-3, 2.5e-4)
 def deck(name, numbers):
     """The functions of a deck with these numbers in place of its own."""
     text = (ROOT / f"crates/decks/src/{name}.py").read_text()
-    text = text[text.index("# ---------------------------------------------------------------- tags"):text.index("@SOLVER@")]
+    text = text[
+        text.index("# ---------------------------------------------------------------- tags") : text.index("@SOLVER@")
+    ]
     for key, value in (("@FRICTION@", "1e7"), ("@LEG@", str(LEG)), ("@SHEAR_SPRINGS@", "")):
         text = text.replace(key, value)
     scope = dict(ops=ops, math=math, sys=sys, GRAVITY=GRAVITY) | numbers
@@ -53,32 +62,58 @@ def rigid(case):
     """Build the body; its masses; the nodes of its absorbers; how a row is read."""
     height, half_width, mass, inertia = case["body"]
     vertical, horizontal = case["vertical"], case["horizontal"]
-    numbers = dict(HEIGHT=height, HALF_WIDTH=half_width, MASS=mass, INERTIA=inertia, LEG=LEG * max(vertical[0], horizontal[0]),
-                   DAMPER_C=0.0, TENDON_K=0.0, TENDON_SLACK=0.0, TOLERANCE=case["tolerance"])
+    numbers = dict(
+        HEIGHT=height,
+        HALF_WIDTH=half_width,
+        MASS=mass,
+        INERTIA=inertia,
+        LEG=LEG * max(vertical[0], horizontal[0]),
+        DAMPER_C=0.0,
+        TENDON_K=0.0,
+        TENDON_SLACK=0.0,
+        TOLERANCE=case["tolerance"],
+    )
     for name, (k1, k2, m2, c) in (("V", vertical), ("H", horizontal)):
         numbers |= {f"K1_{name}": k1, f"K2_{name}": k2, f"M2_{name}": m2, f"C_{name}": c}
-    return deck("deck", numbers), [(3, mass)], (11, 12), lambda: (ops.nodeDisp(3, 1), ops.nodeDisp(3, 2), -ops.nodeDisp(3, 3))
+    return (
+        deck("deck", numbers),
+        [(3, mass)],
+        (11, 12),
+        lambda: (ops.nodeDisp(3, 1), ops.nodeDisp(3, 2), -ops.nodeDisp(3, 3)),
+    )
 
 
 def elastic(case):
     """The same of a pier: nodes 1 (footing) and 2 (mass)."""
     pier = case["pier"]
     mass, centre, top = pier["footing"]
-    inertia = mass * (pier["width"]**2 + 4 * centre**2) / 12
+    inertia = mass * (pier["width"] ** 2 + 4 * centre**2) / 12
     ea, ei, eta_a, eta_i = pier["column"]
     units = [tuple(case[name][k] for k in (0, 1, 3, 2)) for name in ("vertical", "horizontal")]
-    numbers = dict(NODES=((0.0, centre, mass, inertia), (0.0, pier["height"], pier["mass"], 0.0)), TOP=2, DAMPERS=(), TENDONS=(),
-                   BEAMS=((0, 1, (0.0, top - centre), (0.0, 0.0), ea, ei, eta_a / ea, eta_i / ei),),
-                   CORNERS=tuple((0, (side * pier["width"] / 2, -centre), *units) for side in (-1, 1)),
-                   RECORD_DT=case["dt"], TOLERANCE=case["tolerance"])
+    numbers = dict(
+        NODES=((0.0, centre, mass, inertia), (0.0, pier["height"], pier["mass"], 0.0)),
+        TOP=2,
+        DAMPERS=(),
+        TENDONS=(),
+        BEAMS=((0, 1, (0.0, top - centre), (0.0, 0.0), ea, ei, eta_a / ea, eta_i / ei),),
+        CORNERS=tuple((0, (side * pier["width"] / 2, -centre), *units) for side in (-1, 1)),
+        RECORD_DT=case["dt"],
+        TOLERANCE=case["tolerance"],
+    )
     masses = [(1, mass), (2, pier["mass"])]
-    return deck("elastic_deck", numbers), masses, (2000, 2001), lambda: (ops.nodeDisp(2, 1), ops.nodeDisp(2, 2), -ops.nodeDisp(1, 3))
+    return (
+        deck("elastic_deck", numbers),
+        masses,
+        (2000, 2001),
+        lambda: (ops.nodeDisp(2, 1), ops.nodeDisp(2, 2), -ops.nodeDisp(1, 3)),
+    )
 
 
 def as_opensees_damps(case):
-    """The case as our own program has to be asked. OpenSees' damping objects under HHT take the change of a force from one point (1 + alpha) dt
-    within a step to the next, which is a step apart, and divide by (1 + alpha) dt: they act 1/(1 + alpha) times too strongly, however short
-    the step. They keep the force that the element was last asked for; HHT asks for none at the step's end."""
+    """The case as our own program has to be asked. OpenSees' damping objects under HHT take the change of a force from
+    one point (1 + alpha) dt within a step to the next, which is a step apart, and divide by (1 + alpha) dt: they act
+    1/(1 + alpha) times too strongly, however short the step. They keep the force that the element was last asked for;
+    HHT asks for none at the step's end."""
     if "pier" not in case or not case["integrator"].startswith("hht"):
         return case
     stronger = 1.0 / INTEGRATORS[case["integrator"]][1]
@@ -148,7 +183,13 @@ def in_opensees(case):
         before = now
         if abs(now[2]) > math.pi / 2:
             break
-    return dict(u=[r[0] for r in rows], v=[r[1] for r in rows], theta=[r[2] for r in rows], stopped=stopped, seconds=time.time() - begin)
+    return dict(
+        u=[r[0] for r in rows],
+        v=[r[1] for r in rows],
+        theta=[r[2] for r in rows],
+        stopped=stopped,
+        seconds=time.time() - begin,
+    )
 
 
 class Emulator:
@@ -166,11 +207,11 @@ def nrmse(x, y, span=slice(None)):
     n = min(len(x), len(y))
     x, y = x[:n][span], y[:n][span]
     below = sum(b * b for b in y)
-    return math.sqrt(sum((a - b)**2 for a, b in zip(x, y)) / below) if below else 0.0
+    return math.sqrt(sum((a - b) ** 2 for a, b in zip(x, y)) / below) if below else 0.0
 
 
 def chain(mass, k, c, mu, hz):
-    k1 = mass * (2 * math.pi * hz)**2
+    k1 = mass * (2 * math.pi * hz) ** 2
     return [k1, k * k1, mu * mass, c * mass * 2 * math.pi * hz]
 
 
@@ -181,14 +222,20 @@ def plain(mass):
 
 def structures():
     """Name, the structure's part of a case, its size (m), the body that motions are made for."""
+
     def frame(height, width, mass):
-        return [height, width / 2, mass, 1e-3 * mass * (height**2 + (width / 2)**2)]
-    for name, body in (("frame 61 m", frame(61.0, 12.2, 680.1e3)), ("frame 12 m", frame(12.0, 2.2, 1e4)),
-                       ("block 1.3 m", [1.3, 0.35, 1000.0, 1000.0 * (1.3**2 + 0.35**2) / 3])):
+        return [height, width / 2, mass, 1e-3 * mass * (height**2 + (width / 2) ** 2)]
+
+    for name, body in (
+        ("frame 61 m", frame(61.0, 12.2, 680.1e3)),
+        ("frame 12 m", frame(12.0, 2.2, 1e4)),
+        ("block 1.3 m", [1.3, 0.35, 1000.0, 1000.0 * (1.3**2 + 0.35**2) / 3]),
+    ):
         yield name, {"body": body}, math.hypot(*body[:2]), body
     mass, height, hz = 6e5, 12.0, 2.0
-    bending = mass * (2 * math.pi * hz)**2 * (height - 0.75)**3 / 3
-    # the column begins at the footing's centre: an arm to its top would give, as those to the corners do, and only theirs is made up for
+    bending = mass * (2 * math.pi * hz) ** 2 * (height - 0.75) ** 3 / 3
+    # the column begins at the footing's centre: an arm to its top would give, as those to the corners do,
+    # and only theirs is made up for
     for name, damping in (("pier 2 Hz", 0.0), ("damped pier", 0.02)):
         ahead = 2 * damping / (2 * math.pi * hz)
         column = [100.0 * bending / height**2 * 3, bending, ahead * 300.0 * bending / height**2, ahead * bending]
@@ -220,9 +267,15 @@ def compare(emulator, case):
     peak = max(map(abs, theirs["u"]))
     rise = next(i for i, u in enumerate(theirs["u"]) if abs(u) >= 1e-3 * peak)
     early = slice(0, rise + int(2.0 / case["dt"]) + 1)
-    return dict(early=nrmse(ours["u"], theirs["u"], early), whole=nrmse(ours["u"], theirs["u"]), peak=peak,
-                moved=1e3 * nrmse(wider["u"], ours["u"]), moved_early=1e3 * nrmse(wider["u"], ours["u"], early),
-                stopped=(ours["stopped"], theirs["stopped"]), seconds=(ours["seconds"], theirs["seconds"]))
+    return dict(
+        early=nrmse(ours["u"], theirs["u"], early),
+        whole=nrmse(ours["u"], theirs["u"]),
+        peak=peak,
+        moved=1e3 * nrmse(wider["u"], ours["u"]),
+        moved_early=1e3 * nrmse(wider["u"], ours["u"], early),
+        stopped=(ours["stopped"], theirs["stopped"]),
+        seconds=(ours["seconds"], theirs["seconds"]),
+    )
 
 
 def verdict(found, looser):
@@ -240,10 +293,15 @@ def verdict(found, looser):
 
 def medians(emulator, count, steps):
     """The median error of the recipe over p dt, here and in OpenSees, on the same motions."""
+
     def median(errors, of):
         ordered = sorted(errors) + [math.inf] * (of - len(errors))
         return (ordered[(of - 1) // 2] + ordered[of // 2]) / 2
-    print("| body | step (s) | integrator | here/(p dt) | OpenSees/(p dt) | stopped here / in OpenSees | of | expected/(p dt) |")
+
+    print(
+        "| body | step (s) | integrator | here/(p dt) | OpenSees/(p dt) | stopped here / in OpenSees | of "
+        "| expected/(p dt) |"
+    )
     print("|---|---|---|---|---|---|---|---|")
     for name, part, _, body in structures():
         if "pier" in part:
@@ -254,8 +312,14 @@ def medians(emulator, count, steps):
             errors, stopped = ([], []), [0, 0]
             motions = emulator.ask({"references": count, "seed": 77, "body": heavy})
             for motion in motions:
-                case = dict(body=heavy, integrator=integrator, step=step, dt=motion["dt"], accel=motion["accel"],
-                            **{key: recipe[key] for key in ("vertical", "horizontal", "tolerance")})
+                case = dict(
+                    body=heavy,
+                    integrator=integrator,
+                    step=step,
+                    dt=motion["dt"],
+                    accel=motion["accel"],
+                    **{key: recipe[key] for key in ("vertical", "horizontal", "tolerance")},
+                )
                 for k, found in enumerate((emulator.ask(case), in_opensees(case))):
                     if found["stopped"] is None and len(found["u"]) == len(motion["u"]):
                         errors[k].append(nrmse(found["u"], motion["u"]))
@@ -265,12 +329,16 @@ def medians(emulator, count, steps):
             r = math.hypot(height, half_width)
             unit = math.sqrt(mass * GRAVITY * r / (inertia + mass * r * r)) * step
             here, there = (median(e, len(motions)) / unit for e in errors)
-            print(f"| {name} | {step:g} | {integrator[:10]} | {here:.1f} | {there:.1f} | {stopped[0]} / {stopped[1]} | {len(motions)} "
-                  f"| {recipe['median'] / unit:.1f} |", flush=True)
+            print(
+                f"| {name} | {step:g} | {integrator[:10]} | {here:.1f} | {there:.1f} | {stopped[0]} / {stopped[1]} "
+                f"| {len(motions)} | {recipe['median'] / unit:.1f} |",
+                flush=True,
+            )
 
 
 def touches(emulator, count, substeps, step=1e-3):
-    """Touch refinement in OpenSees: its errors against Housner, ours on the same motions, both histories beside each other."""
+    """Touch refinement in OpenSees: its errors against Housner, ours on the same motions,
+    both histories beside each other."""
     print("| body | integrator | error here | in OpenSees | of each other | stopped here / in OpenSees |")
     print("|---|---|---|---|---|---|")
     for name, part, _, body in structures():
@@ -278,11 +346,22 @@ def touches(emulator, count, substeps, step=1e-3):
             recipe = emulator.ask({"recipe": integrator, "step": step, "body": body, "at_touches": substeps})
             heavy = [*body[:3], recipe["inertia"]]
             for motion in emulator.ask({"references": count, "seed": 77, "body": heavy}):
-                case = dict(body=heavy, integrator=integrator, step=step, dt=motion["dt"], accel=motion["accel"], at_touches=substeps,
-                            **{key: recipe[key] for key in ("vertical", "horizontal", "tolerance")})
+                case = dict(
+                    body=heavy,
+                    integrator=integrator,
+                    step=step,
+                    dt=motion["dt"],
+                    accel=motion["accel"],
+                    at_touches=substeps,
+                    **{key: recipe[key] for key in ("vertical", "horizontal", "tolerance")},
+                )
                 ours, theirs = emulator.ask(case), in_opensees(case)
-                print(f"| {name} | {integrator} | {nrmse(ours['u'], motion['u']):.5f} | {nrmse(theirs['u'], motion['u']):.5f} "
-                      f"| {nrmse(ours['u'], theirs['u']):.1e} | {ours['stopped']} / {theirs['stopped']} |", flush=True)
+                print(
+                    f"| {name} | {integrator} | {nrmse(ours['u'], motion['u']):.5f} "
+                    f"| {nrmse(theirs['u'], motion['u']):.5f} | {nrmse(ours['u'], theirs['u']):.1e} "
+                    f"| {ours['stopped']} / {theirs['stopped']} |",
+                    flush=True,
+                )
 
 
 def main():
@@ -301,12 +380,15 @@ def main():
     if asked.short:
         asked.motions, asked.seconds, asked.steps = 1, 6.0, (1e-2, 1e-3)
     emulator = Emulator(asked.program)
-    os.dup2(os.open(os.devnull, os.O_WRONLY), 2)   # OpenSees tells of every step that fails
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # OpenSees tells of every step that fails
     if asked.touches:
         return touches(emulator, asked.touches, 20)
     if asked.medians:
         return medians(emulator, asked.medians, asked.steps)
-    print("| structure | springs | step (s) | integrator | early | whole | histories | not predictable | both stop | time here / OpenSees (ms) |")
+    print(
+        "| structure | springs | step (s) | integrator | early | whole | histories | not predictable | both stop "
+        "| time here / OpenSees (ms) |"
+    )
     print("|---|---|---|---|---|---|---|---|---|---|")
     wrong, total = [], 0
     for name, part, size, body in structures():
@@ -314,15 +396,26 @@ def main():
             continue
         motions = emulator.ask({"body": body, "motions": asked.motions, "seed": asked.seed})
         damped = name == "damped pier"
-        for kind, step, integrator in ((k, s, i) for k in ("recipe", "plain") for s in asked.steps for i in INTEGRATORS):
+        for kind, step, integrator in (
+            (k, s, i) for k in ("recipe", "plain") for s in asked.steps for i in INTEGRATORS
+        ):
             if damped and (integrator in ("newmark:0.5:0.25", "hht:0") or step > 1e-3):
                 continue
             looser = DAMPED * step if damped else 1.0
             all_found = []
             for motion in motions:
                 count = min(len(motion["accel"]), int(asked.seconds / motion["dt"]) + 1)
-                case = part | units(emulator, kind, part, body, integrator, step) | dict(
-                    integrator=integrator, step=step, tolerance=2e-14 * size, dt=motion["dt"], accel=motion["accel"][:count])
+                case = (
+                    part
+                    | units(emulator, kind, part, body, integrator, step)
+                    | dict(
+                        integrator=integrator,
+                        step=step,
+                        tolerance=2e-14 * size,
+                        dt=motion["dt"],
+                        accel=motion["accel"][:count],
+                    )
+                )
                 found = compare(emulator, case)
                 fault = verdict(found, looser)
                 if asked.all or fault not in ("", "not predictable"):
@@ -336,8 +429,11 @@ def main():
             whole = f"{max(f['whole'] for f in good):.1e}" if good else "-"
             stops = sum(f["stopped"][0] is not None and f["stopped"][1] is not None for f, _ in all_found)
             ours, theirs = (1e3 * sum(f["seconds"][k] for f, _ in all_found) / len(all_found) for k in (0, 1))
-            print(f"| {name} | {kind} | {step:g} | {integrator[:10]} | {early:.1e} | {whole} | {len(all_found)} | {len(all_found) - len(good)} "
-                  f"| {stops} | {ours:.1f} / {theirs:.0f} |", flush=True)
+            print(
+                f"| {name} | {kind} | {step:g} | {integrator[:10]} | {early:.1e} | {whole} | {len(all_found)} "
+                f"| {len(all_found) - len(good)} | {stops} | {ours:.1f} / {theirs:.0f} |",
+                flush=True,
+            )
     print("\n".join([f"{total - len(wrong)} of {total} histories agree; these do not:", *wrong]))
     return 0 if len(wrong) <= DIFFERENT * total else 1
 

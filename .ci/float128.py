@@ -4,12 +4,17 @@ Centro. The largest difference of theta must be below 1e-12 rad, and the impacts
 
     float128.py TUNE HOUSNER_QUAD RECORD
 """
+
 import csv, io, subprocess, sys, tempfile
 
 tune, quad, record = sys.argv[1:]
-ours = subprocess.run([tune, "housner", "--record", record, "--duration", "20"], check=True, capture_output=True, text=True).stdout
+ours = subprocess.run(
+    [tune, "housner", "--record", record, "--duration", "20"], check=True, capture_output=True, text=True
+).stdout
 ours = [float(row["th"]) for row in csv.DictReader(io.StringIO(ours))]
-count = subprocess.run([tune, "housner", "--record", record, "--duration", "20", "--impacts"], check=True, capture_output=True, text=True)
+count = subprocess.run(
+    [tune, "housner", "--record", record, "--duration", "20", "--impacts"], check=True, capture_output=True, text=True
+)
 count = len(count.stdout.splitlines()) - 1
 with tempfile.NamedTemporaryFile("w", suffix=".txt") as f:
     f.write("\n".join(w for line in open(record).read().splitlines()[4:] for w in line.split()))
@@ -21,5 +26,8 @@ impacts = sum(line.startswith("# impact") for line in lines)
 assert len(ours) == len(theirs), (len(ours), len(theirs))
 worst = max(abs(a - b) for a, b in zip(ours, theirs))
 ok = worst < 1e-12 and count == impacts
-print(f"Housner against float128: largest difference of theta {worst:.1e} rad, impacts {count} and {impacts}: {'ok' if ok else 'FAILED'}")
+print(
+    f"Housner against float128: largest difference of theta {worst:.1e} rad, impacts {count} and {impacts}: "
+    f"{'ok' if ok else 'FAILED'}"
+)
 sys.exit(not ok)

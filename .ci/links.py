@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""Links between the pages of the documentation: every file named is there, every heading named is one, every page is in the book.
+"""Links between the pages of the documentation: every file named is there, every heading named is one,
+every page is in the book.
 
     links.py
 """
+
 import pathlib, re, sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -33,7 +35,9 @@ for page in PAGES:
         elif anchor and anchor not in anchors(there):
             wrong.append(f"{page.relative_to(ROOT)}: {link}: no such heading")
 book = re.findall(r"\]\(([^)]+)\)", (ROOT / "docs" / "SUMMARY.md").read_text())
-wrong += [f"docs/{p.name}: not in SUMMARY.md" for p in (ROOT / "docs").glob("*.md") if p.name not in [*book, "SUMMARY.md"]]
+wrong += [
+    f"docs/{p.name}: not in SUMMARY.md" for p in (ROOT / "docs").glob("*.md") if p.name not in [*book, "SUMMARY.md"]
+]
 if wrong:
     sys.exit("\n".join(wrong))
 print(f"{len(PAGES)} pages, {count} links, all there")

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""A type name has one meaning: no name of a struct, enum, union, trait or type alias is defined twice in the crates, private or public, at the top
-of a file or inside a function. Associated types of an `impl` or a trait are not names of their own. Tests (`#[cfg(test)]` modules, files named
-tests) may call theirs as they like.
+"""A type name has one meaning: no name of a struct, enum, union, trait or type alias is defined twice in the crates,
+private or public, at the top of a file or inside a function. Associated types of an `impl` or a trait are not names of
+their own. Tests (`#[cfg(test)]` modules, files named tests) may call theirs as they like.
 
     names.py
 """
+
 import collections, pathlib, re, sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -13,10 +14,13 @@ IMPLEMENTATION = re.compile(r"^ *(?:pub(?:\([^)]*\))? )?(?:unsafe )?(impl|trait)
 
 
 def definitions(lines):
-    """Names defined in a file, and their line. rustfmt's indentation tells what encloses a line: the last one before it with less of it."""
+    """Names defined in a file, and their line. rustfmt's indentation tells what encloses a line:
+    the last one before it with less of it."""
     for number, line in enumerate(lines):
         if m := DEFINITION.match(line):
-            above = (l for l in reversed(lines[:number]) if l.strip() and l.strip()[0] not in "#/}" and re.match(r" *\w", l))
+            above = (
+                l for l in reversed(lines[:number]) if l.strip() and l.strip()[0] not in "#/}" and re.match(r" *\w", l)
+            )
             encloses = next((l for l in above if len(l) - len(l.lstrip()) < len(m[1])), "")
             if m[2] != "type" or not IMPLEMENTATION.match(encloses):
                 yield m[3], number + 1

@@ -9,7 +9,9 @@ import re
 import sys
 from pathlib import Path
 
-CRATES = "elementary files strong-motion rocking dynamics frames fixed-steps springs decks report run-folder web".split()
+CRATES = (
+    "elementary files strong-motion rocking dynamics frames fixed-steps springs decks report run-folder web".split()
+)
 SCRIPTS = ["core.js", "plot.js", "drawing.js", "working.js", "inputs.js", "app.js", "begin.js"]
 FOLDER = Path("crates/web/page")
 LIMIT = 1_500_000

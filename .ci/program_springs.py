@@ -6,8 +6,10 @@
 Exit code 1 if a promise is missed. For ten structures that no number in the program was chosen with, three
 steps and three integrators: springs and promise of `tune run --no-record`, then the error of the model beside
 Housner's history on well-conditioned synthetic motions of another seed, emulated and in OpenSees at a constant
-step. Errors are medians of the normalised root mean square of u, in units of p dt. Needs openseespy, and `cargo build --release --example fixed_steps`.
+step. Errors are medians of the normalised root mean square of u, in units of p dt. Needs openseespy, and
+`cargo build --release --example fixed_steps`.
 """
+
 import argparse, json, math, os, pathlib, subprocess, sys, tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
@@ -61,9 +63,11 @@ def main():
     options.add_argument("--program", default=str(ROOT / "target/release/examples/fixed_steps"))
     asked = options.parse_args()
     emulator, missed = Emulator(asked.program), []
-    os.dup2(os.open(os.devnull, os.O_WRONLY), 2)   # OpenSees tells of every step that fails
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # OpenSees tells of every step that fails
     only = [name for name in asked.only.split(",") if name]
-    print("| structure | dt (s) | p dt | integrator | promised | emulated, median | 90 % | lost | in OpenSees | lost |  |")
+    print(
+        "| structure | dt (s) | p dt | integrator | promised | emulated, median | 90 % | lost | in OpenSees | lost |  |"
+    )
     print("|---|---|---|---|---|---|---|---|---|---|---|")
     for name, structure in STRUCTURES.items():
         if only and name not in only:
@@ -83,8 +87,16 @@ def main():
                 motions = emulator.ask({"references": asked.motions, "seed": SEED, "body": body})
                 errors, lost = ([], []), [0, 0]
                 for i, motion in enumerate(motions):
-                    case = dict(body=body, integrator=integrator, step=step, dt=motion["dt"], accel=motion["accel"], substeps=row["substeps"],
-                                tolerance=row["converged"]["increment_m"], **springs)
+                    case = dict(
+                        body=body,
+                        integrator=integrator,
+                        step=step,
+                        dt=motion["dt"],
+                        accel=motion["accel"],
+                        substeps=row["substeps"],
+                        tolerance=row["converged"]["increment_m"],
+                        **springs,
+                    )
                     for k, follow in enumerate((emulator.ask, in_opensees)[: 2 if i < asked.opensees else 1]):
                         history = follow(case)
                         if history["stopped"] is None and len(history["u"]) == len(motion["u"]):
@@ -104,8 +116,12 @@ def main():
                 if lost[0] > (1 - THROUGH[integrator]) * counts[0]:
                     wrong.append("lost")
                 missed += wrong
-                print(f"| {name} | {step:g} | {p * step:.5f} | {integrator[:10]} | {promised:.1f} | {here:.1f} | {ninety:.0f} | {lost[0]} of {counts[0]} "
-                      f"| {there:.1f} | {lost[1]} of {counts[1]} | {', '.join(wrong)} |", flush=True)
+                print(
+                    f"| {name} | {step:g} | {p * step:.5f} | {integrator[:10]} | {promised:.1f} | {here:.1f} "
+                    f"| {ninety:.0f} | {lost[0]} of {counts[0]} | {there:.1f} | {lost[1]} of {counts[1]} "
+                    f"| {', '.join(wrong)} |",
+                    flush=True,
+                )
     print(f"missed: {len(missed)} ({', '.join(f'{w} {missed.count(w)}' for w in sorted(set(missed)))})")
     return 1 if missed else 0
 

@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
-"""Random piers, A-frames and portals as engineers build them: `tune run` of each ends, and what share reaches its accuracy.
+"""Random piers, A-frames and portals as engineers build them: `tune run` of each ends, and what \
+share reaches its accuracy.
 
     random_elastic.py TUNE [COUNT] [--seed SEED] [--timeout SECONDS] [--keep FOLDER] [-- OPTIONS of tune run]
 
-Drawn are height, slenderness, mass, and stiffness by what practice allows: axial stress under the weight (concrete 1 to 8 MPa, steel 20 to 90 MPa),
-frequency fixed to the ground (0.8 to 5 Hz), drift under the acceleration that lifts the structure (at most 1 % of the height). A draw that is not
-within all of them is drawn again. The record is El Centro, scaled to 1.2 to 3 times the acceleration that lifts. A case that is refused says why;
-one that does not end within the timeout (generous: four times what a job is sized for) fails the check.
+Drawn are height, slenderness, mass, and stiffness by what practice allows: axial stress under the weight (concrete 1 to
+8 MPa, steel 20 to 90 MPa), frequency fixed to the ground (0.8 to 5 Hz), drift under the acceleration that lifts the
+structure (at most 1 % of the height). A draw that is not within all of them is drawn again. The record is El Centro,
+scaled to 1.2 to 3 times the acceleration that lifts. A case that is refused says why; one that does not end within the
+timeout (generous: four times what a job is sized for) fails the check.
 """
+
 import argparse, json, math, pathlib, random, subprocess, sys, tempfile, time
 
 G = 9.81
@@ -23,7 +26,8 @@ def between(rng, low, high):
 
 
 def section(rng, load, length):
-    """EA and EI of a member that bears a load: by its stress, and a slenderness length/radius of gyration of 20 to 90."""
+    """EA and EI of a member that bears a load: by its stress,
+    and a slenderness length/radius of gyration of 20 to 90."""
     modulus, stress = rng.choice([CONCRETE, STEEL])
     area = load / between(rng, *stress)
     gyration = length / between(rng, 20, 90)
@@ -47,7 +51,16 @@ def pier(rng):
     frequency = math.sqrt(3 * ei / length**3 / mass) / (2 * math.pi)
     centre = (mass * height + footing * thick / 2) / (mass + footing)
     lift = width / 2 / centre
-    keys = dict(kind="pier", height_m=height, width_m=width, mass_kg=mass, footing_mass_kg=footing, footing_height_m=thick, ei_nm2=ei, ea_n=ea)
+    keys = dict(
+        kind="pier",
+        height_m=height,
+        width_m=width,
+        mass_kg=mass,
+        footing_mass_kg=footing,
+        footing_height_m=thick,
+        ei_nm2=ei,
+        ea_n=ea,
+    )
     if rng.random() < 0.3:
         keys["column_mass_kg"] = mass * rng.uniform(0.02, 0.2)
     return keys, lift, within(frequency, lift, height)
@@ -63,7 +76,15 @@ def aframe(rng):
     sine = width / 2 / leg
     frequency = math.sqrt((2 * ea / leg * sine**2 + 6 * ei / leg**3) / mass) / (2 * math.pi)
     lift = width / 2 / height
-    keys = dict(kind="aframe", height_m=height, width_m=width, mass_kg=mass, ea_n=ea, ei_nm2=ei, foot_mass_kg=mass * rng.uniform(0.005, 0.08))
+    keys = dict(
+        kind="aframe",
+        height_m=height,
+        width_m=width,
+        mass_kg=mass,
+        ea_n=ea,
+        ei_nm2=ei,
+        foot_mass_kg=mass * rng.uniform(0.005, 0.08),
+    )
     return keys, lift, within(frequency, lift, height)
 
 
@@ -80,8 +101,17 @@ def portal(rng):
     # columns rock side by side: the whole leans by half a footing over its height
     lift = foot / height
     keys = dict(
-        kind="frame", height_m=height, span_m=span, footing_width_m=foot, footing_height_m=thick, footing_mass_kg=footing, beam_mass_kg=beam,
-        column_ea_n=ea, column_ei_nm2=ei, beam_ea_n=ea * rng.uniform(0.8, 3), beam_ei_nm2=ei * rng.uniform(0.8, 4),
+        kind="frame",
+        height_m=height,
+        span_m=span,
+        footing_width_m=foot,
+        footing_height_m=thick,
+        footing_mass_kg=footing,
+        beam_mass_kg=beam,
+        column_ea_n=ea,
+        column_ei_nm2=ei,
+        beam_ea_n=ea * rng.uniform(0.8, 3),
+        beam_ei_nm2=ei * rng.uniform(0.8, 4),
     )
     if rng.random() < 0.2:
         keys["column_mass_kg"] = beam * rng.uniform(0.01, 0.1)
@@ -112,7 +142,10 @@ parser.add_argument("count", type=int, nargs="?", default=200)
 parser.add_argument("--seed", type=int, default=1)
 parser.add_argument("--timeout", type=float, default=480.0)
 parser.add_argument("--keep", type=pathlib.Path)
-own, options = (sys.argv[1:] + ["--"])[: (sys.argv[1:] + ["--"]).index("--")], sys.argv[1:][(sys.argv[1:] + ["--"]).index("--") + 1 :]
+own, options = (
+    (sys.argv[1:] + ["--"])[: (sys.argv[1:] + ["--"]).index("--")],
+    sys.argv[1:][(sys.argv[1:] + ["--"]).index("--") + 1 :],
+)
 arguments = parser.parse_args(own)
 tune = pathlib.Path(arguments.tune).resolve()
 kinds = {"pier": pier, "aframe": aframe, "frame": portal}
@@ -126,14 +159,32 @@ with tempfile.TemporaryDirectory() as temporary:
         keys, scale = drawn(rng, kinds[kind])
         case, out = folder / f"{i}.toml", folder / f"{i}"
         case.write_text(toml(keys))
-        command = [tune, "run", case, "--scale", f"{scale:.4f}", "--quiet", "--no-figures", "--no-report", "--out", out, *options]
+        command = [
+            tune,
+            "run",
+            case,
+            "--scale",
+            f"{scale:.4f}",
+            "--quiet",
+            "--no-figures",
+            "--no-report",
+            "--out",
+            out,
+            *options,
+        ]
         begun = time.monotonic()
         try:
             ran = subprocess.run(command, capture_output=True, text=True, timeout=arguments.timeout)
             seconds, code = time.monotonic() - begun, ran.returncode
         except subprocess.TimeoutExpired:
             seconds, code = arguments.timeout, None
-        row = dict(i=i, kind=kind, seconds=seconds, end="not ended" if code is None else "refused" if code else "ended", said="")
+        row = dict(
+            i=i,
+            kind=kind,
+            seconds=seconds,
+            end="not ended" if code is None else "refused" if code else "ended",
+            said="",
+        )
         if code == 0:
             filed = json.loads((out / "parameters.json").read_text())
             row["reached"] = filed["assessment"]["reached"]
@@ -141,8 +192,12 @@ with tempfile.TemporaryDirectory() as temporary:
         elif code is not None:
             row["said"] = ran.stderr.strip().splitlines()[-1] if ran.stderr.strip() else f"exit code {code}"
         results.append(row)
-        print(f"{i:4} {kind:7} {seconds:7.1f} s  {row['end']}  {row.get('reached', '')}  {row['said']}", file=sys.stderr)
-print(f"{'kind':8}{'runs':>6}{'ended':>7}{'refused':>9}{'reached':>9}{'cut':>6}{'median s':>10}{'90 % s':>9}{'most s':>9}")
+        print(
+            f"{i:4} {kind:7} {seconds:7.1f} s  {row['end']}  {row.get('reached', '')}  {row['said']}", file=sys.stderr
+        )
+print(
+    f"{'kind':8}{'runs':>6}{'ended':>7}{'refused':>9}{'reached':>9}{'cut':>6}{'median s':>10}{'90 % s':>9}{'most s':>9}"
+)
 for kind in [*kinds, "all"]:
     rows = [row for row in results if kind in ("all", row["kind"])]
     ended = [row for row in rows if row["end"] == "ended"]

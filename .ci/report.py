@@ -1,8 +1,10 @@
-"""Opens the reports in folders of FOLDER with Chromium: no error on the console, no request but the file itself, figures that are there and
-not empty, histories that zoom and tell values. Leaves a screen of each page, wide and narrow.
+"""Opens the reports in folders of FOLDER with Chromium: no error on the console, no request but the file itself,
+figures that are there and not empty, histories that zoom and tell values. Leaves a screen of each page, wide and
+narrow.
 
     report.py FOLDER
 """
+
 import pathlib, re, shutil, sys
 
 from playwright.sync_api import Page, sync_playwright
@@ -28,7 +30,8 @@ def figures(page: Page, name: str, wanted: int) -> None:
         box = figure.bounding_box()
         assert box and box["width"] > 500 and box["height"] > 250, f"{name}: figure {i} is {box}"
         drawn = figure.evaluate(
-            """svg => [...svg.querySelectorAll(":scope > polyline, :scope > circle, :scope > polygon")].filter(shape => {
+            """svg => [...svg.querySelectorAll(":scope > polyline, :scope > circle, :scope > polygon")]\
+.filter(shape => {
                 const box = shape.getBoundingClientRect();
                 return box.width + box.height > 2;
             }).length"""

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""The tables of docs/accuracy.md: `tune run` and `tune validate` on fourteen structures, El Centro at three scales, 200 synthetic and
-60 earthquake-like motions of a seed that no spring was chosen on.
+"""The tables of docs/accuracy.md: `tune run` and `tune validate` on fourteen structures, El Centro at three scales, 200
+synthetic and 60 earthquake-like motions of a seed that no spring was chosen on.
 
     tables.py TUNE            runs everything (some minutes) and writes docs/accuracy.md anew
     tables.py --check         whether the page has the tables, rows and columns that this program writes
 """
+
 import json, math, pathlib, re, subprocess, sys, tempfile
 
 PAGE = pathlib.Path(__file__).resolve().parent.parent / "docs" / "accuracy.md"
@@ -20,28 +21,58 @@ def block(h, w, m=1e3):
 
 
 STRUCTURES = [
-    frame(61, 12.2, 680.1e3), frame(35, 7.7), frame(20, 4), frame(12, 2.4, 350e3), frame(5, 1.5, 1e4),
-    block(1.3, 0.7), block(1, 0.5), block(0.3, 0.2), block(0.15, 0.1),
-    frame(20, 40 * math.tan(0.03)), frame(20, 40 * math.tan(0.3)), frame(10, 20 * math.tan(0.5)),
-    block(2, 4 * math.tan(0.05)), block(1, 2 * math.tan(0.5)),
+    frame(61, 12.2, 680.1e3),
+    frame(35, 7.7),
+    frame(20, 4),
+    frame(12, 2.4, 350e3),
+    frame(5, 1.5, 1e4),
+    block(1.3, 0.7),
+    block(1, 0.5),
+    block(0.3, 0.2),
+    block(0.15, 0.1),
+    frame(20, 40 * math.tan(0.03)),
+    frame(20, 40 * math.tan(0.3)),
+    frame(10, 20 * math.tan(0.5)),
+    block(2, 4 * math.tan(0.05)),
+    block(1, 2 * math.tan(0.5)),
 ]
 CAPPED = [
-    STRUCTURES[0], STRUCTURES[2], STRUCTURES[4], block(1, 0.5), block(0.3, 0.2), STRUCTURES[1], STRUCTURES[3], block(1.3, 0.7),
+    STRUCTURES[0],
+    STRUCTURES[2],
+    STRUCTURES[4],
+    block(1, 0.5),
+    block(0.3, 0.2),
+    STRUCTURES[1],
+    STRUCTURES[3],
+    block(1.3, 0.7),
     block(0.15, 0.1),
 ]
 SLENDER = [block(h, 2 * h * math.tan(0.05)) for h in (2, 1, 0.5, 0.25)]
 MANY, OWN_SEED = 2000, 900
 
 EL_CENTRO = ["structure"] + [f"scale {s:g}" for s in SCALES]
-SUITE = ["structure", "Omega_n [kHz]", "median", "90 %", "of", "agreement on overturning", "Housner with himself", "KS",
-         "Housner from himself", "earthquake-like: geometric mean", "of "]
+SUITE = [
+    "structure",
+    "Omega_n [kHz]",
+    "median",
+    "90 %",
+    "of",
+    "agreement on overturning",
+    "Housner with himself",
+    "KS",
+    "Housner from himself",
+    "earthquake-like: geometric mean",
+    "of ",
+]
 CHAOS = ["structure", "Omega_n [kHz]", "agreement on overturning", "Housner with himself", "KS", "Housner from himself"]
 CAP = ["structure", "median", "90 %", "agreement on overturning", "KS"]
 
 INTRO = f"""# Accuracy
 
-Written by `.ci/tables.py target/release/tune`; every number is of the program's own output. NRMSE is sqrt(sum (u - u_H)^2 / sum u_H^2) of
-the horizontal displacement, u_H Housner's. A history is well conditioned if a change of 0.1 and of 1 % in width or scale moves Housner's own
+Written by `.ci/tables.py target/release/tune`; every number is of the program's own output. NRMSE is \
+sqrt(sum (u - u_H)^2 / sum u_H^2) of
+the horizontal displacement, u_H Housner's. A history is well conditioned if a change of 0.1 and of 1 % in width \
+or scale moves Housner's own
 by less than ten times as much, and 0.1 % in restitution by less than 0.1.
 """
 
@@ -56,7 +87,10 @@ def run(tune, *args):
 def case(folder, structure):
     _, kind, h, w, m = structure
     path = folder / "case.toml"
-    path.write_text(f'[structure]\nkind = "{kind}"\nheight_m = {h!r}\nwidth_m = {w!r}\nmass_kg = {m!r}\n[record]\nduration_s = 20.0\n')
+    path.write_text(
+        f'[structure]\nkind = "{kind}"\nheight_m = {h!r}\nwidth_m = {w!r}\nmass_kg = {m!r}\n[record]\n'
+        "duration_s = 20.0\n"
+    )
     return path
 
 
@@ -86,8 +120,12 @@ def on_el_centro(p):
 
 
 def peaks(s):
-    return [f"{100 * s['overturning_agreement']:.1f} %", f"{100 * s['overturning_agreement_of_housner_changed']:.1f} %",
-            f"{s['ks_distance']:.3f}", f"{s['ks_distance_of_housner_changed']:.3f}"]
+    return [
+        f"{100 * s['overturning_agreement']:.1f} %",
+        f"{100 * s['overturning_agreement_of_housner_changed']:.1f} %",
+        f"{s['ks_distance']:.3f}",
+        f"{s['ks_distance_of_housner_changed']:.3f}",
+    ]
 
 
 def table(head, rows):
@@ -105,13 +143,25 @@ def write(tune):
                 p, file = parameters(tune, folder, structure, "--scale", scale)
                 cells.append(on_el_centro(p))
                 if scale == SCALES[0]:
-                    found = suites(tune, folder, file, "--synthetic", SYNTHETIC, "--seed", SEED, "--earthquakes", EARTHQUAKES)
+                    found = suites(
+                        tune, folder, file, "--synthetic", SYNTHETIC, "--seed", SEED, "--earthquakes", EARTHQUAKES
+                    )
                     hz = p["vertical"]["omega_n_hz"]
             el_centro.append([structure[0], *cells])
             s, e = found["synthetic"], found["earthquakes"]["nrmse_geometric_mean"]
             n = s["nrmse_well_conditioned"]
-            suite.append([structure[0], f"{hz / 1e3:.1f}", short(n["median"]), short(n["p90"]), str(n["count"]),
-                          *peaks(s), short(e["mean"]), str(e["count"])])
+            suite.append(
+                [
+                    structure[0],
+                    f"{hz / 1e3:.1f}",
+                    short(n["median"]),
+                    short(n["p90"]),
+                    str(n["count"]),
+                    *peaks(s),
+                    short(e["mean"]),
+                    str(e["count"]),
+                ]
+            )
             print(*el_centro[-1], *suite[-1][1:], sep=" | ", file=sys.stderr)
         for structure in SLENDER:
             p, file = parameters(tune, folder, structure)
@@ -122,25 +172,36 @@ def write(tune):
             _, file = parameters(tune, folder, structure, "--max-hz", 160)
             s = suites(tune, folder, file, "--synthetic", SYNTHETIC, "--seed", 1)["synthetic"]
             n = s["nrmse_well_conditioned"]
-            cap.append([structure[0], short(n["median"]), short(n["p90"]), f"{100 * s['overturning_agreement']:.1f} %",
-                        f"{s['ks_distance']:.3f}"])
+            cap.append(
+                [
+                    structure[0],
+                    short(n["median"]),
+                    short(n["p90"]),
+                    f"{100 * s['overturning_agreement']:.1f} %",
+                    f"{s['ks_distance']:.3f}",
+                ]
+            )
             print(*cap[-1], sep=" | ", file=sys.stderr)
     PAGE.write_text(f"""{INTRO}
 ## El Centro
 
-20 s of El Centro, `tune run CASE --scale S`, all defaults: NRMSE of u / of v where Housner's answer is well conditioned.
+20 s of El Centro, `tune run CASE --scale S`, all defaults: NRMSE of u / of v where Housner's answer \
+is well conditioned.
 
 {table(EL_CENTRO, el_centro)}
 ## Motions that no spring was chosen on
 
-The springs of scale 1, `tune validate --synthetic {SYNTHETIC} --seed {SEED} --earthquakes {EARTHQUAKES}`: NRMSE of u over the well-conditioned ones; agreement
-and the Kolmogorov-Smirnov distance (KS) of the peak rotations over all. Beside them those of Housner's answers and his own with e changed by
+The springs of scale 1, `tune validate --synthetic {SYNTHETIC} --seed {SEED} --earthquakes {EARTHQUAKES}`: \
+NRMSE of u over the well-conditioned ones; agreement
+and the Kolmogorov-Smirnov distance (KS) of the peak rotations over all. Beside them those of Housner's answers \
+and his own with e changed by
 1e-5, than which no model can do better but by chance.
 
 {table(SUITE, suite)}
 ## Small slender blocks
 
-Of alpha 0.05: the smaller, the more of these motions make them tremble before they rock, and the more are chaotic. Many motions show how near
+Of alpha 0.05: the smaller, the more of these motions make them tremble before they rock, and the more are chaotic. \
+Many motions show how near
 their springs are to what Housner's answers themselves allow: `tune validate --synthetic {MANY} --seed {OWN_SEED}`.
 
 {table(CHAOS, chaos)}

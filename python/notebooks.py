@@ -23,7 +23,8 @@ def cell(kind: str, text: str, number: int) -> dict[str, Any]:
 
 
 def notebook(source: str) -> dict[str, Any]:
-    """The docstring as text; a cell of code for what comes before the first function, one for each function, and the call."""
+    """The docstring as text; a cell of code for what comes before the first function,
+    one for each function, and the call."""
     tree, lines = ast.parse(source), source.splitlines(keepends=True)
     title, _, rest = (ast.get_docstring(tree) or "").partition("\n")
     rest = "\n".join(line for line in rest.splitlines() if not line.startswith("    "))
@@ -79,7 +80,10 @@ def main() -> int:
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(json.dumps(run(made), indent=1) + "\n")
     if wrong:
-        print(f"not those of the examples, or without outputs: {', '.join(wrong)}; run python python/notebooks.py", file=sys.stderr)
+        print(
+            f"not those of the examples, or without outputs: {', '.join(wrong)}; run python python/notebooks.py",
+            file=sys.stderr,
+        )
     return len(wrong) > 0
 
 

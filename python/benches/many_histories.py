@@ -1,10 +1,11 @@
-"""Ten thousand histories from Python, table included, beside a loop in Rust over the same structures, records and scales.
+"""Ten thousand histories from Python, table included,
+beside a loop in Rust over the same structures, records and scales.
 
     cargo build --release --package groundspring --example many_histories
     python python/benches/many_histories.py [ROUNDS]
 
-Both take turns, so that what else the machine does falls on both alike; the processor time is that of all threads. Printed: the
-least time of each, s, and the ratio of Python's to Rust's.
+Both take turns, so that what else the machine does falls on both alike; the processor time is that of all threads.
+Printed: the least time of each, s, and the ratio of Python's to Rust's.
 """
 
 import os

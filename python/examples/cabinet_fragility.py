@@ -26,7 +26,11 @@ def table(cabinet: gs.Structure, motions: int, pgas: list[float]) -> pandas.Data
 def main(folder: Path) -> None:
     cabinet = gs.Structure.block(height=2.0, width=0.5, mass=300.0)
     rows = table(cabinet, motions=200, pgas=[round(0.1 * i, 1) for i in range(1, 21)])
-    limits = {"uplift": 0.0, "|theta| beyond half of alpha": 0.5, "overturning": np.nextafter(0.5 * np.pi / cabinet.alpha, 0.0)}
+    limits = {
+        "uplift": 0.0,
+        "|theta| beyond half of alpha": 0.5,
+        "overturning": np.nextafter(0.5 * np.pi / cabinet.alpha, 0.0),
+    }
     fragility = pandas.DataFrame(
         {name: (rows["peak"] > limit).groupby(rows["pga_g"]).mean() for name, limit in limits.items()}
     )  # fmt: skip

@@ -1,7 +1,8 @@
-"""(e) What is often done instead: OpenSees' zeroLength gap springs with Rayleigh damping, even steps. Beside ground springs.
+"""(e) What is often done instead: OpenSees' zeroLength gap springs with Rayleigh damping, even steps.
+Beside ground springs.
 
-The gap springs do not know Housner's restitution: whatever the damping, the frame does not follow. The damping that lets
-it lose the right energy in one landing is wrong in the next, and it holds on in the air.
+The gap springs do not know Housner's restitution: whatever the damping, the frame does not follow. The damping that
+lets it lose the right energy in one landing is wrong in the next, and it holds on in the air.
 
     python gap_and_rayleigh.py [FOLDER]
 """
@@ -103,7 +104,9 @@ def main(folder: Path) -> None:
         axes.plot(record.t[: len(u)], 1e3 * u, label=f"{name}: {error:.2g}", **style)
         return error
 
-    worst = [show(f"gaps, {100 * d:g} % Rayleigh", gaps(structure, record, d, 1e-3), linewidth=0.8) for d in (0.0, 0.02, 0.2)]
+    worst = [
+        show(f"gaps, {100 * d:g} % Rayleigh", gaps(structure, record, d, 1e-3), linewidth=0.8) for d in (0.0, 0.02, 0.2)
+    ]
     tuned = show("ground springs", ground_springs(structure, record), color="tab:red", linestyle="--")
     assert tuned < 0.002 < 0.5 < min(worst)
     axes.set_xlabel("time [s]")

@@ -1,7 +1,7 @@
 """(c) A reinforced concrete bridge pier with a fibre section at its base, stepping on its footing.
 
-Rocking limits what the column's base has to carry: the same pier on a fixed footing yields. Moment against curvature at the
-base, drift, uplift.
+Rocking limits what the column's base has to carry: the same pier on a fixed footing yields. Moment against curvature at
+the base, drift, uplift.
 
     python pier_with_hinge.py [FOLDER]
 """
@@ -92,7 +92,9 @@ def main(folder: Path) -> None:
     (rocking, history), (held, _) = shake(record, rocks=True), shake(record, rocks=False)
     for name, rows in (("rocking", rocking), ("held down", held)):
         top, curvature, moment = np.abs(rows).max(axis=0)
-        print(f"{name}: top {1e3 * top:.0f} mm, curvature {1e3 * curvature:.2f} 1/km, base moment {moment / 1e6:.2f} MN m")
+        print(
+            f"{name}: top {1e3 * top:.0f} mm, curvature {1e3 * curvature:.2f} 1/km, base moment {moment / 1e6:.2f} MN m"
+        )
     print(f"uplift {1e3 * history.uplift.max():.0f} mm; curvature and moment: not checked with steps and springs")
     assert np.abs(rocking[:, 1]).max() < np.abs(held[:, 1]).max()
 

@@ -1,7 +1,7 @@
 """(f) A post-tensioned rocking wall with yielding dissipaters, as New Zealand builds them.
 
-Stages: weight and tendon settle together; the dissipaters come in unstressed; then the ground moves. Uplift, tendon force,
-hysteresis of a dissipater, what is left at the end; and what of it still moves with the springs and the steps.
+Stages: weight and tendon settle together; the dissipaters come in unstressed; then the ground moves. Uplift, tendon
+force, hysteresis of a dissipater, what is left at the end; and what of it still moves with the springs and the steps.
 
     python rocking_wall.py [FOLDER]
 """
@@ -23,7 +23,8 @@ HALF, THICK, STOREY, STOREYS = 1.5, 0.3, 3.0, 4  # half length of the wall, thic
 FLOOR, TOE = 15e3, 2e3  # kg: at each floor, and at each toe what of the wall lands with it
 CONCRETE = 30e9  # N/m2
 TENDON_AREA, TENDON_YOUNG, TENDON_STRESSED = 1680e-6, 195e9, 900e3  # m2, N/m2, N before the wall shortens
-BAR_X, BAR_LENGTH, BAR_AREA, BAR_YIELD = 0.6, 0.8, 804e-6, 320e6  # dissipaters: off the axis, unbonded length, m; m2; N/m2
+# dissipaters: off the axis, unbonded length, m; m2; N/m2
+BAR_X, BAR_LENGTH, BAR_AREA, BAR_YIELD = 0.6, 0.8, 804e-6, 320e6
 LEFT, RIGHT, BASE, ANCHOR, TENDON, BARS = 1, 2, 3, 50, 60, (70, 71)
 TOP = 10 + STOREYS
 

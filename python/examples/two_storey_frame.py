@@ -1,7 +1,8 @@
 """(b) A two-storey elastic steel frame that steps on its two feet, beside the same frame on pins.
 
-The frame is the user's own; feet are added under nodes 1 and 2. The foot that lands is stopped by its springs, the rest of the
-frame by its columns: springs are for the mass of the footing. Drift, column forces, uplift, and the account of energy.
+The frame is the user's own; feet are added under nodes 1 and 2. The foot that lands is stopped by its springs, the rest
+of the frame by its columns: springs are for the mass of the footing. Drift, column forces, uplift, and the account of
+energy.
 
     python two_storey_frame.py [FOLDER]
 """
@@ -23,7 +24,9 @@ BAY, STOREY = 3.0, 3.5  # m
 FLOOR, FOOTING = 10e3, 1e3  # kg at each node
 YOUNG = 210e9  # N/m2
 COLUMN, BEAM = (149e-4, 2.517e-4), (62.6e-4, 1.177e-4)  # HEB 300, IPE 330: area m2, second moment m4
-NODES = {1: (-BAY / 2, 0.0), 2: (BAY / 2, 0.0)} | {2 * i + k: ((k - 1.5) * BAY, i * STOREY) for i in (1, 2) for k in (1, 2)}
+NODES = {1: (-BAY / 2, 0.0), 2: (BAY / 2, 0.0)} | {
+    2 * i + k: ((k - 1.5) * BAY, i * STOREY) for i in (1, 2) for k in (1, 2)
+}
 COLUMNS = {1: (1, 3), 2: (2, 4), 3: (3, 5), 4: (4, 6)}
 BEAMS = {5: (3, 4), 6: (5, 6)}
 DAMPING, FREQUENCY = 0.02, 12.0  # of the first mode, rad/s
@@ -148,7 +151,8 @@ def main(folder: Path) -> None:
     print(f"the feet stand off their first places by {walked}: a lifted column straightens, and lands where it hangs")
     print(f"uplift {1e3 * free.feet.uplift.max():.1f} mm; energy not accounted for: {100 * missing:.2f} % of the input")
     converged = [
-        np.abs(free.roof).max() / np.abs(finer.roof).max() - 1.0, free.axial / finer.axial - 1.0, free.shear / finer.shear - 1.0,
+        np.abs(free.roof).max() / np.abs(finer.roof).max() - 1.0,
+        free.axial / finer.axial - 1.0, free.shear / finer.shear - 1.0,
     ]  # fmt: skip
     print("halving the error changes roof, axial force, shear by", ", ".join(f"{100 * c:+.2f} %" for c in converged))
     print("forces on springs of other stiffness: not checked, as Stepper.converged would")

@@ -10,8 +10,8 @@
 
 `groundspring.opensees` puts the springs under a model of your own in openseespy.
 
-SI units throughout: m, kg, s, N; angles in radians. theta > 0 leans to the right, u > 0 is to the right, v > 0 up. Errors are
-ValueError, warnings are GroundspringWarning, in words of Python. Arrays of results cannot be written to.
+SI units throughout: m, kg, s, N; angles in radians. theta > 0 leans to the right, u > 0 is to the right, v > 0 up.
+Errors are ValueError, warnings are GroundspringWarning, in words of Python. Arrays of results cannot be written to.
 """
 
 from ._many import rocking

@@ -17,7 +17,11 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
         return "<tr>" + "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in cells) + "</tr>"
 
     body = "".join(line(row, "td") for row in rows)
-    return f"<table><thead>{line(head, 'th')}</thead><tbody>{body}</tbody></table>" if any(head) else f"<table>{body}</table>"
+    return (
+        f"<table><thead>{line(head, 'th')}</thead><tbody>{body}</tbody></table>"
+        if any(head)
+        else f"<table>{body}</table>"
+    )
 
 
 def paragraph(text: str) -> str:

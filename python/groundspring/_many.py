@@ -22,7 +22,8 @@ def rocking(
     restitution: float | None = None,
     progress: bool | Callable[[int], object] = False,
 ) -> RockingTable:
-    """Housner's solution for every structure at every scale of every record, on all cores: a table with a row a history.
+    """Housner's solution for every structure at every scale of every record,
+    on all cores: a table with a row a history.
 
     structures   one or several
     records      one or several, at whatever time steps; a record with a vertical component is rocked with it
@@ -48,7 +49,8 @@ def rocking(
         last_impact_time  s; NaN if there is none
         overturned_time   when |theta| last grew past alpha, s; NaN if it did not overturn
 
-    `.to_pandas()`, `.to_polars()`, or whatever reads Arrow: `polars.DataFrame(table)`, `pyarrow.table(table)`. ^C ends it.
+    `.to_pandas()`, `.to_polars()`, or whatever reads Arrow: `polars.DataFrame(table)`,
+    `pyarrow.table(table)`. ^C ends it.
 
     ValueError: none of one of them; a scale that is not finite; vertical records of other times or another number.
     """

@@ -39,7 +39,12 @@ class Record:
     """
 
     def __new__(
-        cls, dt: float, accel: _Numbers, name: str = "record", *, units: Literal["m/s2", "g", "cm/s2", "mm/s2"] | str = "m/s2"
+        cls,
+        dt: float,
+        accel: _Numbers,
+        name: str = "record",
+        *,
+        units: Literal["m/s2", "g", "cm/s2", "mm/s2"] | str = "m/s2",
     ) -> Record: ...
     @property
     def name(self) -> str:
@@ -211,7 +216,8 @@ class Springs:
     def settlement(self) -> float:
         """Of the standing body under its weight, m."""
     def stiffer(self, factor: float) -> Springs:
-        """Springs `factor` times as stiff, which land as these do: k1 and k2 times it, c times its root, m2 as it is."""
+        """Springs `factor` times as stiff, which land as these do: k1 and k2 times it,
+        c times its root, m2 as it is."""
     def plot(self, axes: Axes | None = None) -> Axes:
         """Amplitude response ratio of both units (equation 7), without unit, over frequency, Hz."""
     def _repr_html_(self) -> str:
@@ -229,7 +235,6 @@ def _units_for(
     give: float,
     landing: float,
 ) -> tuple[float, float, list[Springs]]: ...
-
 def read_parameters(path: _Path) -> tuple[Structure, Springs]:
     """The structure and the springs of a `parameters.json`."""
 
@@ -314,8 +319,8 @@ def rigid_rocking(
 ) -> History:
     """Housner's solution for a structure on a record.
 
-    vertical  ground acceleration at the same times, positive upwards, if not that of the record; the history ends where the
-              ground would have to pull (outcome "leaves_ground")
+    vertical  ground acceleration at the same times, positive upwards, if not that of the record; the history ends where
+              the ground would have to pull (outcome "leaves_ground")
 
     ValueError: a vertical record of other times; a scale or restitution out of range.
     """
@@ -375,8 +380,8 @@ def _unit_design(mu: float, f: float, xi: float, omega_n_hz: float) -> UnitDesig
 class Simulation:
     """The finite element history on springs, beside Housner's on the same record.
 
-    Forces are, at every sample, those of largest magnitude since the sample before. They are not checked: those of a landing are
-    the springs', as large as these are stiff.
+    Forces are, at every sample, those of largest magnitude since the sample before. They are not checked: those of a
+    landing are the springs', as large as these are stiff.
     """
 
     @property
@@ -471,8 +476,8 @@ def simulate(
 class Tuned:
     """Springs of a rigid structure, and all that is found of them.
 
-    The springs are for a body that lands as a whole. Under columns that give they are wrong: they throw the foot back, again and
-    again, in a million steps. There `groundspring.opensees.springs_for` has those of what lands.
+    The springs are for a body that lands as a whole. Under columns that give they are wrong: they throw the foot back,
+    again and again, in a million steps. There `groundspring.opensees.springs_for` has those of what lands.
     """
 
     @property
@@ -601,7 +606,8 @@ class Design:
 def design(alpha: Structure, *, stiffness: float | None = None) -> Design: ...
 @overload
 def design(alpha: float, inertia: float | None = None, stiffness: float | None = None) -> Design:
-    """The design from the geometry, without units: alpha in rad, inertia I_cg/(m R^2), 0 unless given, stiffness Omega_n/p.
+    """The design from the geometry, without units: alpha in rad, inertia I_cg/(m R^2), 0 unless given,
+    stiffness Omega_n/p.
 
     Omega_n/p is, unless given, where `tune` begins to look for an accuracy of 0.002.
     """

@@ -70,7 +70,9 @@ def histories(of: Simulation, axes: Axes | None = None) -> Axes:
     axes = _axes(axes)
     housner = of.housner
     axes.plot(housner.t, 1e3 * housner.u, color="black", linewidth=1.0, label="Housner")
-    axes.plot(of.t, 1e3 * of.u, color="tab:red", linewidth=1.0, linestyle="--", label="finite elements on ground springs")
+    axes.plot(
+        of.t, 1e3 * of.u, color="tab:red", linewidth=1.0, linestyle="--", label="finite elements on ground springs"
+    )
     axes.plot(housner.impacts, 0.0 * housner.impacts, ".", color="black", markersize=4.0, label="impacts")
     axes.set_xlabel("time [s]")
     axes.set_ylabel("displacement u [mm]")

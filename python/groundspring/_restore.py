@@ -102,5 +102,12 @@ def validation(
     restitution: float,
 ) -> Validation:
     return validate(
-        of, springs, records, synthetic=synthetic, earthquakes=earthquakes, seed=seed, duration=duration, restitution=restitution
+        of,
+        springs,
+        records,
+        synthetic=synthetic,
+        earthquakes=earthquakes,
+        seed=seed,
+        duration=duration,
+        restitution=restitution,
     )

@@ -33,7 +33,12 @@ def simulation(of: Simulation) -> pandas.DataFrame:
         "vertical_left", "vertical_right", "horizontal_left", "horizontal_right",
         "energy_input", "energy_stored", "energy_dissipated", "energy_residual",
     )  # fmt: skip
-    columns = {"t": of.t[:n], "u_housner": housner.u[:n], "v_housner": housner.v[:n], "theta_housner": housner.theta[:n]}
+    columns = {
+        "t": of.t[:n],
+        "u_housner": housner.u[:n],
+        "v_housner": housner.v[:n],
+        "theta_housner": housner.theta[:n],
+    }
     columns |= {"u": of.u[:n], "v": of.v[:n], "theta": of.theta[:n]}
     columns |= {name: getattr(of, name)[:n] for name in names}
     columns |= {name: values[:n] for name, values in of.demands.items()}

@@ -33,8 +33,9 @@ def load(path: Path) -> ModuleType:
 CASES = {
     "61 m frame": (gs.Structure.aframe(61.0, 12.2, 680.1e3), 1.0, 0.002),
     "12 m pier": (gs.Structure.aframe(12.0, 2.4, 350e3), 1.0, 0.002),
-    # at scale 1 no block of 2 m from 0.25 to 0.6 m width is well conditioned over 20 s; two programs differ by 0.0001 (0.36 m),
-    # 0.0005 (0.46 m), 0.0007 (0.48 m), 0.0010 (0.44 m), 0.0013 (0.4 m, whose history 0.1 % of restitution moves by 0.1)
+    # at scale 1 no block of 2 m from 0.25 to 0.6 m width is well conditioned over 20 s; two programs differ by 0.0001
+    # (0.36 m), 0.0005 (0.46 m), 0.0007 (0.48 m), 0.0010 (0.44 m), 0.0013 (0.4 m, whose history 0.1 % of restitution
+    # moves by 0.1)
     "2 m block": (gs.Structure.block(2.0, 0.46, 1000.0), 1.0, 0.002),
     "2 m block, 0.7 m wide": (gs.Structure.block(2.0, 0.7, 1000.0), 1.5, 0.002),
 }

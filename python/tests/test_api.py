@@ -58,7 +58,9 @@ def test_rocking_is_the_programs_to_its_last_digit(scale: float, tmp_path: Path)
     for name, values in (("u", history.u), ("v", history.v), ("th", history.theta)):
         # the program prints twelve digits: the numbers rounded to as many are the same
         written = np.array([float(row[name]) for row in theirs])
-        assert np.array_equal(np.array([float(f"{x:.11e}") for x in values]), np.array([float(f"{x:.11e}") for x in written]))
+        assert np.array_equal(
+            np.array([float(f"{x:.11e}") for x in values]), np.array([float(f"{x:.11e}") for x in written])
+        )
 
 
 def test_many_histories_are_those_of_one_to_the_last_bit() -> None:
@@ -93,7 +95,9 @@ def test_arrays_are_views_of_the_crates_memory() -> None:
 
 @needs_program
 def test_a_saved_run_is_that_of_the_program(tmp_path: Path) -> None:
-    subprocess.run([str(TUNE), "run", "--quiet", "--no-front", "--out", str(tmp_path / "program")], check=True, capture_output=True)
+    subprocess.run(
+        [str(TUNE), "run", "--quiet", "--no-front", "--out", str(tmp_path / "program")], check=True, capture_output=True
+    )
     tuned = gs.tune(FRAME, gs.el_centro(), duration=20.0)
     tuned.save(tmp_path / "package")
     theirs, ours = (

@@ -1,4 +1,5 @@
-"""A body in a live model through add_feet and Stepper against the deck that `tune run` writes and our own finite elements."""
+"""A body in a live model through add_feet and Stepper against the deck that `tune run` writes
+and our own finite elements."""
 
 import warnings
 from pathlib import Path
@@ -44,8 +45,9 @@ def compare(tuned: gs.Tuned, record: gs.Record, ops: Any, tmp_path: Path) -> Non
     feet = add_feet(ops, [1, 2], tuned.springs, compliance=give)
     longest = record.dt / deck.STEPS_PER_SAMPLE
     tolerance = 2e-14 * np.hypot(structure.height, structure.width / 2.0)
-    stepper = Stepper(ops, feet, accuracy=deck.ACCURACY, longest=longest, tolerance=tolerance,
-                      rise=getattr(deck, "RISE", None))
+    stepper = Stepper(
+        ops, feet, accuracy=deck.ACCURACY, longest=longest, tolerance=tolerance, rise=getattr(deck, "RISE", None)
+    )
     stepper.gravity()
     found = []
     sunk = ops.nodeDisp(3, 2)

@@ -97,7 +97,9 @@ def test_two_structures_stand_in_one_model(ops: Any) -> None:
         ops.node(node, x, 0.0)
         ops.element("elasticBeamColumn", node, node, 103, leg * length, 1.0, leg * length**3 / 3.0, 1)
     groups = [add_feet(ops, nodes, SPRINGS, compliance=give) for nodes in ([1, 2], [101, 102])]
-    tags = [tag for feet in groups for tag in (*feet.absorbers, *feet.grounds, *feet.units, *feet.bearings, *feet.materials)]
+    tags = [
+        tag for feet in groups for tag in (*feet.absorbers, *feet.grounds, *feet.units, *feet.bearings, *feet.materials)
+    ]
     assert len(set(tags)) == len(tags)
     stepper = Stepper(ops, groups, tolerance=2e-13)
     stepper.gravity()
@@ -176,7 +178,9 @@ def test_gravity_is_put_on_once(ops: Any) -> None:
     stepper = standing(ops)
     before = stepper.groups[0].forces().copy()
     for again in (stepper, Stepper(ops, stepper.groups)):
-        with pytest.raises(ValueError, match="the feet carry 3.434e.06 N already, and a second call would put the weight on twice"):
+        with pytest.raises(
+            ValueError, match="the feet carry 3.434e.06 N already, and a second call would put the weight on twice"
+        ):
             again.gravity()
     assert np.array_equal(stepper.groups[0].forces(), before)
     stepper.settle()
@@ -235,7 +239,10 @@ def test_three_feet_that_nothing_ties_are_told_before_the_run(ops: Any) -> None:
     assert told(caught) == 1 and caught[0].filename == __file__
     words = "3 feet, and what ties nodes [12] and [23] gives [0-9.]+ mm under .* tie the feet \\(a grade beam\\)"
     assert re.match(words, str(caught[0].message))
-    assert ops.getTime() == 0.0 and np.abs([ops.nodeDisp(node, k) for node in ops.getNodeTags() for k in (1, 2)]).max() == 0.0
+    assert (
+        ops.getTime() == 0.0
+        and np.abs([ops.nodeDisp(node, k) for node in ops.getNodeTags() for k in (1, 2)]).max() == 0.0
+    )
 
 
 @pytest.mark.parametrize(("count", "tied"), [(3, True), (2, False)])
@@ -290,7 +297,7 @@ def test_masses_of_elements_that_nothing_gives_weight_to_are_told(ops: Any) -> N
     nodes = soft_frame(ops)
     ops.element("elasticBeamColumn", 301, 101, 102, 62.6e-4, 210e9, 1.177e-4, 1, "-mass", 500.0)
     stepper = Stepper(ops, add_feet(ops, nodes, springs_for(ops, nodes)))
-    words = "elements have 1500 kg of mass .* beside the 4.2e.04 kg of the nodes; .* gravity\\(\"own\"\\)"
+    words = 'elements have 1500 kg of mass .* beside the 4.2e.04 kg of the nodes; .* gravity\\("own"\\)'
     with pytest.warns(gs.GroundspringWarning, match=words) as caught:
         stepper.gravity()
     assert [one.filename for one in caught] == [__file__]

@@ -60,14 +60,28 @@ def test_what_is_computed_pickles_as_what_it_came_from() -> None:
 
 def test_a_line_and_a_table_for_notebooks() -> None:
     tuned = gs.tune(FRAME, RECORD, accuracy=0.01)
-    assert repr(tuned).startswith("Tuned(Omega_n ") and "accuracy 0.01 reached" in repr(tuned) and "\n" not in repr(tuned)
+    assert (
+        repr(tuned).startswith("Tuned(Omega_n ") and "accuracy 0.01 reached" in repr(tuned) and "\n" not in repr(tuned)
+    )
     assert str(tuned).splitlines()[1:] == tuned.lines
-    shown = [tuned, tuned.histories, gs.rocking(BLOCK, RECORD), gs.validate(FRAME, SPRINGS, synthetic=2), *OBJECTS.values()]
+    shown = [
+        tuned,
+        tuned.histories,
+        gs.rocking(BLOCK, RECORD),
+        gs.validate(FRAME, SPRINGS, synthetic=2),
+        *OBJECTS.values(),
+    ]
     for one in shown:
         html = getattr(one, "_repr_html_", None)
         assert html is None or html().startswith("<table>")
     assert sum(hasattr(one, "_repr_html_") for one in shown) >= 9
-    for plot in (RECORD.plot, OBJECTS["record with a vertical one"].plot, OBJECTS["history"].plot, SPRINGS.plot, tuned.plot):  # type: ignore[attr-defined]
+    for plot in (
+        RECORD.plot,
+        OBJECTS["record with a vertical one"].plot,  # type: ignore[attr-defined]
+        OBJECTS["history"].plot,  # type: ignore[attr-defined]
+        SPRINGS.plot,
+        tuned.plot,
+    ):
         assert plot().get_ylabel()
 
 
@@ -93,7 +107,10 @@ def test_what_is_no_row_of_numbers_is_refused_with_what_to_pass(name: str) -> No
     wrong, words = WRONG[name]
     calls = [lambda: gs.Record(0.01, wrong)]
     if name != "a number":
-        calls += [lambda: gs.rigid_rocking_many(BLOCK, RECORD, wrong), lambda: gs.frequency_response(wrong, 0.1, 2.0, 1.0)]
+        calls += [
+            lambda: gs.rigid_rocking_many(BLOCK, RECORD, wrong),
+            lambda: gs.frequency_response(wrong, 0.1, 2.0, 1.0),
+        ]
     for call in calls:
         with pytest.raises(ValueError) as caught:
             call()
@@ -130,7 +147,9 @@ def test_messages_speak_python(tmp_path: Path) -> None:
         lambda: gs.read_record(columns, dt=0.01),
         lambda: gs.Record(0.01, [1e4]),
         lambda: gs.tune(FRAME, gs.Record(0.01, [0.0, 0.1]), method="arr"),
-        lambda: gs.read_record(Path(__file__).parents[2] / "tests/records/20161113_110259_WTMC_20.V2A", component="N99"),
+        lambda: gs.read_record(
+            Path(__file__).parents[2] / "tests/records/20161113_110259_WTMC_20.V2A", component="N99"
+        ),
         lambda: gs.tune(FRAME, RECORD, max_hz=1.0, max_settlement=1e-9),
         lambda: several(61.0, -1.0, 1.0),
     ]
@@ -143,7 +162,9 @@ def test_messages_speak_python(tmp_path: Path) -> None:
         gs.tune(FRAME, RECORD, max_hz=160.0)
         gs.tune(gs.Structure.block(2.0, 0.4, 1e3), RECORD, accuracy=0.01)
     said += [str(warning.message) for warning in told]
-    assert [text for text in said if "--" in text or "tune " in text.replace("groundspring.tune ", "") or "tuning." in text] == []
+    assert [
+        text for text in said if "--" in text or "tune " in text.replace("groundspring.tune ", "") or "tuning." in text
+    ] == []
     assert any("component=" in text for text in said) and any("dt=" in text for text in said)
 
 
@@ -181,7 +202,10 @@ def test_a_table_of_many_is_that_of_each_history() -> None:
         assert table["peak_rate"][row] == np.abs(one.rate).max()
         overturned = np.nan if one.overturned is None else one.overturned
         assert np.array_equal(table["overturned_time"][row], overturned, equal_nan=True)
-    assert list(table["scale"][:3]) == [0.5, 1.0, 3.0] and list(table["structure"]) == [0] * 3 + [1] * 3 + [0] * 3 + [1] * 3
+    assert (
+        list(table["scale"][:3]) == [0.5, 1.0, 3.0]
+        and list(table["structure"]) == [0] * 3 + [1] * 3 + [0] * 3 + [1] * 3
+    )
     with pytest.raises(KeyError, match='there is no column "nothing"; there are structure, record'):
         table["nothing"]
     with pytest.raises(ValueError, match="2 records and 3 vertical ones"):
@@ -203,6 +227,8 @@ def test_tables_are_those_of_pandas_polars_and_arrow() -> None:
     kept = polars.DataFrame(table)
     del table  # what was taken out of it stays
     assert kept["peak_theta"].to_list() == frame["peak_theta"].tolist()
-    assert pickle.loads(pickle.dumps(gs.rocking(BLOCK, RECORD))).to_pandas().equals(gs.rocking(BLOCK, RECORD).to_pandas())
+    assert (
+        pickle.loads(pickle.dumps(gs.rocking(BLOCK, RECORD))).to_pandas().equals(gs.rocking(BLOCK, RECORD).to_pandas())
+    )
     many = gs.rigid_rocking_many(BLOCK, RECORD, [0.2, 1.0, 3.0])
     assert many.to_pandas()["peak_ratio"].tolist() == many.peak_ratio.tolist()

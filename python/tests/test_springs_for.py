@@ -1,4 +1,5 @@
-"""What lands at a foot, measured on the model itself, against closed forms; whether histories on its springs converge."""
+"""What lands at a foot, measured on the model itself, against closed forms;
+whether histories on its springs converge."""
 
 import math
 from typing import Any
@@ -66,7 +67,10 @@ def test_springs_follow_the_accuracy_and_what_lands(ops: Any) -> None:
     assert coarse.lands == pytest.approx([1e3, 1e3], rel=0.02) and coarse.parts == ((1,), (2,))
     stiff = coarse.stiffer(4.0)
     assert stiff[0].vertical.k1 == pytest.approx(4.0 * coarse[0].vertical.k1)
-    assert stiff[0].vertical.c == pytest.approx(2.0 * coarse[0].vertical.c) and stiff[0].vertical.m2 == coarse[0].vertical.m2
+    assert (
+        stiff[0].vertical.c == pytest.approx(2.0 * coarse[0].vertical.c)
+        and stiff[0].vertical.m2 == coarse[0].vertical.m2
+    )
     assert stiff.landings[0] == pytest.approx(0.5 * coarse.landings[0])
     ops.wipe()
     block(ops, 2.0, 0.5, 6e4, 1e16)
@@ -78,4 +82,3 @@ def test_springs_follow_the_accuracy_and_what_lands(ops: Any) -> None:
         springs_for(ops, [1, 2], 0.5)
     with pytest.raises(ValueError, match="give the tags of nodes that are in the model"):
         springs_for(ops, [1, 77])
-

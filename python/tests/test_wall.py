@@ -54,7 +54,9 @@ def test_the_same_of_frames_on_soft_columns(name: str, frame: str, ops: Any) -> 
     for factor in (1.0, 8.0):
         ops.wipe()
         nodes = FRAMES[frame](ops)
-        stepper = Stepper(ops, add_feet(ops, nodes, springs_for(ops, nodes).stiffer(factor)), longest=RECORDS[name].dt / 4)
+        stepper = Stepper(
+            ops, add_feet(ops, nodes, springs_for(ops, nodes).stiffer(factor)), longest=RECORDS[name].dt / 4
+        )
         stepper.gravity()
         uplifts.append(stepper.run(RECORDS[name]).uplift.max())
         assert stepper.steps.taken <= 60_000
@@ -73,7 +75,10 @@ def test_the_wall_begins_to_lift_at_the_acceleration_of_statics(ops: Any) -> Non
     by_hand = (weight + pull) * wall.HALF / moment
     lifted = int(np.argmax(response.feet.gap.max(axis=1) > 1e-6))
     assert rate * t[lifted] == pytest.approx(by_hand, rel=0.02)
-    assert abs(response.bar[0]) < 1e-3 and np.abs(response.bar[: lifted - 50]).max() < 0.02 * wall.BAR_AREA * wall.BAR_YIELD
+    assert (
+        abs(response.bar[0]) < 1e-3
+        and np.abs(response.bar[: lifted - 50]).max() < 0.02 * wall.BAR_AREA * wall.BAR_YIELD
+    )
 
 
 def test_the_wall_comes_back_and_its_bars_have_dissipated(ops: Any) -> None:
@@ -90,7 +95,9 @@ def test_what_is_put_in_with_the_length_of_the_unloaded_wall_is_told(ops: Any) -
     stepper.gravity()
     ops.uniaxialMaterial("Steel02", 3, wall.BAR_YIELD, 200e9, 0.02, 18.0, 0.925, 0.15)
     ops.element("corotTruss", 70, 40, 30, wall.BAR_AREA, 3)
-    with pytest.warns(gs.GroundspringWarning, match=r"element 70 \(CorotTruss\) was put in after gravity\(\) and carries 449"):
+    with pytest.warns(
+        gs.GroundspringWarning, match=r"element 70 \(CorotTruss\) was put in after gravity\(\) and carries 449"
+    ):
         stepper.run(gs.Record(0.01, np.zeros(3)))
 
 
@@ -109,8 +116,14 @@ def test_halved_steps_and_springs_come_as_a_table(ops: Any) -> None:
     assert found.names == ("uplift", "roof") and len(found.rows) == 6
     assert found.largest < 0.02 and found.sensitivity < 1e-4
     # the tendon's force is the structure's; those of the ground in a landing grow with the springs
-    assert found.forces == ("tendon", "vertical at a foot", "horizontal at a foot") and found.force_changes["tendon"] < 0.02
-    assert "forces: the structure's: tendon (" in str(found).splitlines()[-1] and "vertical at a foot" in found._repr_html_()
+    assert (
+        found.forces == ("tendon", "vertical at a foot", "horizontal at a foot")
+        and found.force_changes["tendon"] < 0.02
+    )
+    assert (
+        "forces: the structure's: tendon (" in str(found).splitlines()[-1]
+        and "vertical at a foot" in found._repr_html_()
+    )
     assert history.force_changes == found.force_changes == found.history.force_changes
     assert "; forces: the structure's: tendon (" in repr(history)
     assert found.to_pandas().shape == (6, 11) and "\n" not in repr(found) and found._repr_html_().startswith("<table>")
@@ -124,7 +137,10 @@ def test_halved_steps_and_springs_come_as_a_table(ops: Any) -> None:
 def test_a_force_that_moves_with_the_springs_is_not_the_structures() -> None:
     names = ("as asked", "accuracy halved", "longest step halved", "springs twice", "springs four times", TWIN_NAME)
     moments, shears = (10.0, 10.1, 10.2, 9.9, 10.49, 10.6), (5.0, 5.0, 5.0, 5.1, 5.25, 5.0)
-    rows = [Refined(name, 1, values) for name, values in zip(names, zip((1.0,) * 6, moments, shears, strict=True), strict=True)]
+    rows = [
+        Refined(name, 1, values)
+        for name, values in zip(names, zip((1.0,) * 6, moments, shears, strict=True), strict=True)
+    ]
     history = FeetHistory((1,), np.zeros(1), *np.zeros((10, 1, 1)))
     assert "forces: not checked" in repr(history)
     found = Convergence(["uplift"], rows, ["moment", "shear"], history)

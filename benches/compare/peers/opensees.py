@@ -15,7 +15,8 @@ history = os.path.splitext(path)[0] + "_history.csv"
 
 
 class EvenSteps(deck.Steps):
-    """Steps all alike, as an engineer's own deck takes them: one that Newton's iteration gives up is split in 10, 100 or 1000."""
+    """Steps all alike, as an engineer's own deck takes them: one that Newton's iteration gives up is
+    split in 10, 100 or 1000."""
 
     SPLITS = (1, 10, 100, 1000)
 

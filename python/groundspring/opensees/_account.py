@@ -3,7 +3,8 @@
     input = kinetic + structure + feet + residual
 
 The input is the work of the ground and of the weight, relative to the ground; the structure's is the work done on its
-elements: elastic, plastic and of Rayleigh damping; the feet's is the work done on them. What the steps lose is the residual.
+elements: elastic, plastic and of Rayleigh damping; the feet's is the work done on them. What the steps lose is the
+residual.
 """
 
 from __future__ import annotations
@@ -41,7 +42,9 @@ class Books:
         up = record.vertical
         self.accel = (record.accel, np.zeros(len(record)) if up is None else up.accel)
         own = {node for group in groups for node in (*group.absorbers, *group.grounds)}
-        masses = [(node, dof, ops.nodeMass(node, dof)) for node in ops.getNodeTags() if node not in own for dof in (1, 2, 3)]
+        masses = [
+            (node, dof, ops.nodeMass(node, dof)) for node in ops.getNodeTags() if node not in own for dof in (1, 2, 3)
+        ]
         self.masses = [entry for entry in masses if entry[2] > 0.0]
         feet = {element for group in groups for element in (*group.units, *group.bearings)}
         self.elements = [(element, ops.eleNodes(element)) for element in ops.getEleTags() if element not in feet]

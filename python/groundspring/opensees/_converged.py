@@ -46,7 +46,9 @@ class Convergence:
     history  of the feet, as it was asked for; it knows what has become of its forces
     """
 
-    def __init__(self, names: Sequence[str], rows: Sequence[Refined], forces: Sequence[str], history: FeetHistory) -> None:
+    def __init__(
+        self, names: Sequence[str], rows: Sequence[Refined], forces: Sequence[str], history: FeetHistory
+    ) -> None:
         self.names, self.rows, self.forces, self.history = tuple(names), tuple(rows), tuple(forces), history
         history.force_changes = self.force_changes
 
@@ -66,19 +68,20 @@ class Convergence:
 
     @property
     def largest(self) -> float:
-        """The largest change of the quantities, as a share; without the twin's, which is no refinement, and the forces'."""
+        """The largest change of the quantities, as a share; without the twin's, which is no refinement,
+        and the forces'."""
         return max(map(self._largest, self.names))
 
     @property
     def force_changes(self) -> dict[str, float]:
-        """The largest change of every force, as a share. One below 5 % is the structure's own; one of 5 % or more is made by
-        springs and steps, and nothing to design for."""
+        """The largest change of every force, as a share. One below 5 % is the structure's own; one of 5 % or more is
+        made by springs and steps, and nothing to design for."""
         return {name: self._largest(name) for name in self.forces}
 
     @property
     def sensitivity(self) -> float:
-        """The largest change of the quantities under a ground that shakes by a millionth more, as a share. One that is not far
-        below `largest` says that the motion is sensitive: no step and no spring makes it converge."""
+        """The largest change of the quantities under a ground that shakes by a millionth more, as a share. One that is
+        not far below `largest` says that the motion is sensitive: no step and no spring makes it converge."""
         twin = self.changes().get(TWIN_NAME, {})
         return max((abs(twin[name]) for name in self.names if name in twin), default=math.nan)
 
@@ -100,7 +103,8 @@ class Convergence:
         names, changes, first = (*self.names, *self.forces), self.changes(), self.rows[0]
         table = [["", "steps", *names], [first.name, str(first.steps), *(f"{x:.5g}" for x in first.values)]]
         return table + [
-            [row.name, str(row.steps), *(f"{100.0 * changes[row.name][name]:+.3f} %" for name in names)] for row in self.rows[1:]
+            [row.name, str(row.steps), *(f"{100.0 * changes[row.name][name]:+.3f} %" for name in names)]
+            for row in self.rows[1:]
         ]
 
     def __repr__(self) -> str:
@@ -173,8 +177,8 @@ def _again(stepper: Stepper, build: Callable[[], object], finer: float, longest:
         check_free(stepper.ops, [node for feet in stepper.groups for node in feet.nodes], "converged")
     except OnFeet as error:
         raise ValueError(
-            "converged: build leaves feet in the model; it makes the model anew, from ops.wipe() on, without feet: these are "
-            "put on as the stepper's were"
+            "converged: build leaves feet in the model; it makes the model anew, from ops.wipe() on, without feet: "
+            "these are put on as the stepper's were"
         ) from error
     given = stepper.given | {"accuracy": finer * stepper.accuracy, "longest": longest}
     if given["landing"] is not None:

@@ -65,7 +65,9 @@ class Feet:
             np.array([[getattr(unit, name) for unit in (of.horizontal, of.vertical)] for of in each]).T
             for name in ("k2", "c", "m2")
         )
-        lands = [math.sqrt(of.mass / of.vertical.k1) for of in each] if isinstance(springs, Springs) else springs.landings
+        lands = (
+            [math.sqrt(of.mass / of.vertical.k1) for of in each] if isinstance(springs, Springs) else springs.landings
+        )
         self.landing = min(lands)
 
     @property
@@ -86,7 +88,8 @@ class Feet:
         return np.array([[-x for x in self.ops.eleForce(bearing)[3:5]] for bearing in self.bearings])
 
     def anchors(self) -> Array:
-        """Where every foot holds on to the ground: its horizontal displacement at which the bearing carries no shear, m.
+        """Where every foot holds on to the ground: its horizontal displacement
+        at which the bearing carries no shear, m.
 
         It moves along with a foot in the air.
         """
@@ -142,14 +145,15 @@ def add_feet(
     compliance  m/N: what the structure gives above a node, where that stands for a rigid body; taken off k1's
     friction    coefficient, without unit; unless given a pressing foot never slips
     first_tag   the first of the tags used; beyond the model's own unless given
-    measure     look whether the springs are for what lands; OpenSees' analysis objects are wiped for it. Not done with a
-                compliance, nor in models of more than 3,000 equations
+    measure     look whether the springs are for what lands; OpenSees' analysis objects are wiped for it. Not done with
+                a compliance, nor in models of more than 3,000 equations
 
     Call it after `ops.rayleigh`, which would damp the absorbers.
 
-    ValueError: a model that is not plane, nodes that are not there or fixed, that have feet already, or that have no mass under
-    columns softer than the springs; numbers that mean nothing. GroundspringWarning: springs for three times the mass that lands,
-    or more. UntiedFeetWarning: three or more feet that nothing holds together, if `springs_for` has not told it.
+    ValueError: a model that is not plane, nodes that are not there or fixed, that have feet already, or that have no
+    mass under columns softer than the springs; numbers that mean nothing. GroundspringWarning: springs for three times
+    the mass that lands, or more. UntiedFeetWarning: three or more feet that nothing holds together, if `springs_for`
+    has not told it.
     """
     nodes = node_tags(nodes, "add_feet")
     _check(ops, nodes, springs, compliance, friction)
@@ -175,7 +179,8 @@ def add_feet(
         if not known:
             v, h = unit.vertical, unit.horizontal
             across, down = material("Elastic", h.k2, h.c), material("Elastic", v.k2, v.c)
-            # without a trace of tension a foot in the air would be pulled back to where it stood before, which creates energy
+            # without a trace of tension a foot in the air would be pulled back to where it stood before,
+            # which creates energy
             closed, trace = material("ENT", gap_vertical), material("Elastic", 1e-9 * gap_vertical)
             known = [(across, down, closed, trace, material("Parallel", closed, trace), material("Elastic", moment))]
             made.append((unit, known[0]))
@@ -225,8 +230,9 @@ def _check(ops: Any, nodes: list[int], springs: Springs | FeetSprings, complianc
         ndm, ndf = len(ops.nodeCoord(node)), len(ops.nodeDisp(node))
         if ndm == 3:
             raise ValueError(
-                f"add_feet: node {node} is in a space model (ndm 3); these springs are for plane rocking, and nothing would "
-                "hold the feet out of the plane: the body would roll over and twist; make the model plane (ndm 2, ndf 3)"
+                f"add_feet: node {node} is in a space model (ndm 3); these springs are for plane rocking, and nothing "
+                "would hold the feet out of the plane: the body would roll over and twist; "
+                "make the model plane (ndm 2, ndf 3)"
             )
         if (ndm, ndf) != (2, 3):
             raise ValueError(f"add_feet: node {node} has ndm {ndm}, ndf {ndf}; a plane frame has ndm 2, ndf 3")
@@ -236,7 +242,9 @@ def _check(ops: Any, nodes: list[int], springs: Springs | FeetSprings, complianc
             raise ValueError(f"add_feet: {name} is {value!r}; give a finite number, zero or greater")
     units = [springs] if isinstance(springs, Springs) else list(springs)
     if len(units) not in (1, len(nodes)):
-        raise ValueError(f"add_feet: springs are for {len(units)} feet, nodes are {nodes}; give one for all or one a node")
+        raise ValueError(
+            f"add_feet: springs are for {len(units)} feet, nodes are {nodes}; give one for all or one a node"
+        )
     stiffest = max(max(unit.vertical.k1, unit.horizontal.k1) for unit in units)
     if compliance * stiffest >= 1.0:
         raise ValueError(
@@ -247,7 +255,8 @@ def _check(ops: Any, nodes: list[int], springs: Springs | FeetSprings, complianc
 
 
 def _check_lands(ops: Any, nodes: list[int], springs: Springs | FeetSprings) -> Model | None:
-    """Refuse feet without mass under soft columns; warn of springs for more than what lands. None: could not be measured."""
+    """Refuse feet without mass under soft columns; warn of springs for more than what lands.
+    None: could not be measured."""
     units = [springs] * len(nodes) if isinstance(springs, Springs) else list(springs)
     omega = min(math.sqrt(unit.vertical.k1 / unit.mass) for unit in units)
     try:
@@ -261,17 +270,17 @@ def _check_lands(ops: Any, nodes: list[int], springs: Springs | FeetSprings) -> 
         stiffness = mass * omega**2
         if node in massless and stiffness < 0.5 * unit.vertical.k1:
             raise ValueError(
-                f"add_feet: node {node} has no mass, and what stands on it gives more ({stiffness:.3g} N/m) than its spring "
-                f"({unit.vertical.k1:.3g} N/m): it would let go and land without end; give it the mass of its base plate or "
-                f"footing, ops.mass({node}, m, m, 0.0), and springs by springs_for"
+                f"add_feet: node {node} has no mass, and what stands on it gives more ({stiffness:.3g} N/m) than its "
+                f"spring ({unit.vertical.k1:.3g} N/m): it would let go and land without end; give it the mass of its "
+                f"base plate or footing, ops.mass({node}, m, m, 0.0), and springs by springs_for"
             )
     heavy = [(unit.mass / mass, node, mass, unit) for node, mass, unit in zip(nodes, lands, units, strict=True)]
     times, node, mass, unit = max(heavy, key=lambda entry: entry[0])
     if times > HEAVY and isinstance(springs, Springs):
         text = (
-            f"add_feet: the springs are for {unit.mass:.4g} kg, but {mass:.4g} kg land at node {node}: what stands on it is softer "
-            "than the springs, and does not land with it. The foot will touch and lift again and again, in very many steps; "
-            "take springs_for(ops, nodes)"
+            f"add_feet: the springs are for {unit.mass:.4g} kg, but {mass:.4g} kg land at node {node}: what stands on "
+            "it is softer than the springs, and does not land with it. The foot will touch and lift again and again, "
+            "in very many steps; take springs_for(ops, nodes)"
         )
         warnings.warn(text, GroundspringWarning, stacklevel=3)
     return model
@@ -284,7 +293,9 @@ def _check_mass(ops: Any, mass: float) -> None:
     total = math.fsum(masses)
     # element masses are not seen: too little is no mistake
     if total > 0.0 and mass > 2.0 * total:
-        text = f"add_feet: WARNING: the springs are for {mass:.4g} kg, the model's nodes carry {total:.4g} kg; check units"
+        text = (
+            f"add_feet: WARNING: the springs are for {mass:.4g} kg, the model's nodes carry {total:.4g} kg; check units"
+        )
         warnings.warn(text, GroundspringWarning, stacklevel=4)
 
 

@@ -26,7 +26,9 @@ def said_of_forces(changes: Mapping[str, float] | None) -> str:
     own = [f"{name} ({100.0 * change:.1f} %)" for name, change in changes.items() if change < MOST_CHANGE]
     other = [f"{name} ({100.0 * change:.1f} %)" for name, change in changes.items() if not change < MOST_CHANGE]
     said = [f"the structure's: {', '.join(own)}"] if own else []
-    return "; ".join([*said, *([f"not the structure's, but of springs and steps: {', '.join(other)}"] if other else [])])
+    return "; ".join(
+        [*said, *([f"not the structure's, but of springs and steps: {', '.join(other)}"] if other else [])]
+    )
 
 
 @dataclass(repr=False)
@@ -48,8 +50,8 @@ class FeetHistory:
     account             energies of the whole structure, if the run kept them
     force_changes       largest change of every force that `Stepper.converged` found, as a share; None: not checked
 
-    A force is the structure's own only where `Stepper.converged` has shown that it changes by less than 5 % with steps and springs.
-    Elsewhere it may be that of the springs: in a landing they make it as large as they are stiff.
+    A force is the structure's own only where `Stepper.converged` has shown that it changes by less than 5 % with steps
+    and springs. Elsewhere it may be that of the springs: in a landing they make it as large as they are stiff.
     """
 
     nodes: tuple[int, ...]
@@ -83,8 +85,8 @@ class FeetHistory:
 
     @property
     def released(self) -> Array:
-        """What the springs let go where a foot lifts while it is loaded to the side, and what the steps lose, J: the work that
-        is neither stored nor taken by dashpots."""
+        """What the springs let go where a foot lifts while it is loaded to the side, and what the steps lose, J: the
+        work that is neither stored nor taken by dashpots."""
         gained: Array = self.stored - self.stored[0]
         return self.work - gained - self.dissipated
 
@@ -112,7 +114,8 @@ class FeetHistory:
 
 
 _NAMES = (
-    "horizontal", "vertical", "largest_horizontal", "largest_vertical", "uplift", "gap", "anchor", "work", "stored", "dissipated",
+    "horizontal", "vertical", "largest_horizontal", "largest_vertical", "uplift", "gap", "anchor",
+    "work", "stored", "dissipated",
 )  # fmt: skip
 
 

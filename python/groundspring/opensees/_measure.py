@@ -4,9 +4,10 @@ OpenSees assembles mass and stiffness of the model as it stands (integrator Gimm
 
     W(Omega) = Omega^2 G (K + Omega^2 M)^-1 G'      of the feet's displacements x, y: rows of G
 
-is what a push that grows as exp(Omega t) does to the feet: the inverse of the mass that moves along in a time of 1/Omega. Parts
-behind members softer than M Omega^2 stay where they are, parts behind stiffer ones come along, and no eigenvalue is asked for.
-For a rigid body W = G M^-1 G' at every Omega. A foot whose mass falls with 1/Omega^2 has none: it is a spring.
+is what a push that grows as exp(Omega t) does to the feet: the inverse of the mass that moves along in a time of
+1/Omega. Parts behind members softer than M Omega^2 stay where they are, parts behind stiffer ones come along, and no
+eigenvalue is asked for. For a rigid body W = G M^-1 G' at every Omega. A foot whose mass falls with 1/Omega^2 has none:
+it is a spring.
 """
 
 from __future__ import annotations
@@ -35,7 +36,9 @@ def node_tags(nodes: Sequence[int], call: str) -> list[int]:
     try:
         return [int(node) for node in nodes]
     except TypeError:
-        raise ValueError(f"{call}: nodes are {nodes!r}; give a list of the tags of the nodes that stand on the ground") from None
+        raise ValueError(
+            f"{call}: nodes are {nodes!r}; give a list of the tags of the nodes that stand on the ground"
+        ) from None
 
 
 def check_free(ops: Any, nodes: Sequence[int], call: str) -> None:
@@ -44,14 +47,16 @@ def check_free(ops: Any, nodes: Sequence[int], call: str) -> None:
     for node in nodes:
         held = sorted({1, 2} & set(ops.getFixedDOFs(node))) if node in fixed else []
         if held:
-            raise ValueError(f"{call}: node {node} is fixed in direction {held[0]}; a foot must be free: take the fix off")
+            raise ValueError(
+                f"{call}: node {node} is fixed in direction {held[0]}; a foot must be free: take the fix off"
+            )
     wanted = set(nodes)
     for element in ops.getEleTags():
         ends = set(ops.eleNodes(element)) & wanted
         if ends and ops.eleType(element).startswith("FlatSlider"):
             raise OnFeet(
-                f"{call}: node {min(ends)} stands on a bearing already (element {element}); a node gets one foot: keep the feet "
-                "that the first call returned, or begin the model anew"
+                f"{call}: node {min(ends)} stands on a bearing already (element {element}); a node gets one foot: keep "
+                "the feet that the first call returned, or begin the model anew"
             )
 
 
@@ -76,8 +81,8 @@ class Held:
 
 
 class Model:
-    """Mass and stiffness of the structure on these feet, kg and N/m; parts of the model that do not hang together with it are
-    left out.
+    """Mass and stiffness of the structure on these feet, kg and N/m; parts of the model that do not hang together with
+    it are left out.
 
     ops          openseespy.opensees
     nodes        the feet
@@ -177,8 +182,8 @@ class Model:
         return [sorted(part, key=lambda i: float(self.places[i, 0])) for part in parts]
 
     def spread(self) -> Array:
-        """How far two neighbouring feet move apart under a foot's share of the weight, m: what ties them gives so much. A column a
-        pair, from the left."""
+        """How far two neighbouring feet move apart under a foot's share of the weight, m: what ties them gives so much.
+        A column a pair, from the left."""
         order = [int(i) for i in np.argsort(self.places[:, 0])]
         # slowly: far below any frequency of the structure, whose rigid motions a pair of forces does not move
         slow = 1e-3 * self.held()[0].omega

@@ -84,20 +84,23 @@ def springs_for(ops: Any, nodes: Sequence[int], accuracy: float = 0.01, *, const
     accuracy     wanted of displacements and uplift, as a share of their largest
     constraints  handler, "Plain" unless the model has constraints between nodes
 
-    The units are those of what lands at each node: the mass that moves along with it in the time of a landing, and the other end
-    of the same footing if there is one. k1 is so stiff that under the structure's weight, put on sideways and upwards, the k1's
-    take a tenth of the accuracy asked of the structure's own elastic energy; k2/k1 is the balance of `docs/elastic.md`. What the
-    history then misses is to be seen by `Stepper.converged`.
+    The units are those of what lands at each node: the mass that moves along with it in the time of a landing, and the
+    other end of the same footing if there is one. k1 is so stiff that under the structure's weight, put on sideways and
+    upwards, the k1's take a tenth of the accuracy asked of the structure's own elastic energy; k2/k1 is the balance of
+    `docs/elastic.md`. What the history then misses is to be seen by `Stepper.converged`.
 
-    The model's mass and stiffness are assembled as they stand, before or after loads; nothing of it is changed, but OpenSees'
-    analysis objects are wiped.
+    The model's mass and stiffness are assembled as they stand, before or after loads; nothing of it is changed, but
+    OpenSees' analysis objects are wiped.
 
-    ValueError: nodes that are fixed, without mass, or on feet already; feet that carry none of the structure; more than 3,000
-    equations; accuracy not between 1e-4 and 0.1. UntiedFeetWarning: three or more feet that nothing holds together.
+    ValueError: nodes that are fixed, without mass, or on feet already; feet that carry none of the structure; more than
+    3,000 equations; accuracy not between 1e-4 and 0.1. UntiedFeetWarning: three or more feet that nothing holds
+    together.
     """
     nodes = node_tags(nodes, "springs_for")
     if not 1e-4 <= accuracy <= 0.1:
-        raise ValueError(f"springs_for: accuracy is {accuracy!r}; give a share of the largest displacement from 1e-4 to 0.1")
+        raise ValueError(
+            f"springs_for: accuracy is {accuracy!r}; give a share of the largest displacement from 1e-4 to 0.1"
+        )
     there = set(ops.getNodeTags())
     if not nodes or len(set(nodes)) < len(nodes) or not there.issuperset(nodes):
         raise ValueError(f"springs_for: nodes are {nodes}; give the tags of nodes that are in the model, each once")
@@ -127,8 +130,8 @@ def _found(model: Model, give: float) -> FeetSprings:
     if massless:
         node = massless[0]
         raise NotMeasured(
-            f"node {node} has no mass that lands; give it that of its base plate or footing, ops.mass({node}, m, m, 0.0), and a "
-            "footing that turns a rotational inertia or mass at its ends"
+            f"node {node} has no mass that lands; give it that of its base plate or footing, ops.mass({node}, m, m, "
+            "0.0), and a footing that turns a rotational inertia or mass at its ends"
         )
     speed = model.landing_speed()
     w = model.inertia(omega)
@@ -158,10 +161,11 @@ def tell_untied(model: Model, level: int) -> None:
         order, at = np.argsort(model.places[:, 0]), int(np.argmax(spread > (1.0 - 1e-6) * spread.max()))
         left, right = (model.nodes[int(i)] for i in order[at : at + 2])
         text = (
-            f"{count} feet, and what ties nodes {left} and {right} gives {1e3 * spread.max():.3g} mm under a foot's share of the "
-            "weight: a foot in the air hangs where its column lets it and lands there, and where it stands decides what the others "
-            "carry. Under strong shaking small changes grow from landing to landing, whatever the springs and steps: tie the feet "
-            "(a grade beam), or see by Stepper.converged what can be foretold"
+            f"{count} feet, and what ties nodes {left} and {right} gives {1e3 * spread.max():.3g} mm under a foot's "
+            "share of the weight: a foot in the air hangs where its column lets it and lands there, and where it "
+            "stands decides what the others carry. Under strong shaking small changes grow from landing to landing, "
+            "whatever the springs and steps: tie the feet (a grade beam), "
+            "or see by Stepper.converged what can be foretold"
         )
         warnings.warn(text, UntiedFeetWarning, stacklevel=level + 1)
 

@@ -38,16 +38,16 @@ class Staging:
     def gravity(self, loads: str = "weight", steps: int = 10) -> None:
         """Let the structure settle under its weight and its prestress; the time is zero after it. Once.
 
-        loads  "weight": that of every nodal mass but the absorbers', put on here; "own": the model's patterns as they are, with
-               the weight among them
+        loads  "weight": that of every nodal mass but the absorbers', put on here; "own": the model's patterns as they
+               are, with the weight among them
         steps  in which the loads grow
 
-        Prestress of elements (initial strain or stress) acts as it is; patterns of the model are put on with the weight. What
-        comes in later and is to settle, too: `settle`. What comes in unstressed needs nothing: a `Truss` or `zeroLength` put in
-        now is as long as it stands.
+        Prestress of elements (initial strain or stress) acts as it is; patterns of the model are put on with the
+        weight. What comes in later and is to settle, too: `settle`. What comes in unstressed needs nothing: a `Truss`
+        or `zeroLength` put in now is as long as it stands.
 
-        ValueError: the feet carry something already. GroundspringWarning: the loads are more than the nodal masses weigh, or, of
-        the model's own, less; elements have mass, whose weight is not put on.
+        ValueError: the feet carry something already. GroundspringWarning: the loads are more than the nodal masses
+        weigh, or, of the model's own, less; elements have mass, whose weight is not put on.
         """
         if loads not in ("weight", "own"):
             raise ValueError(f'gravity: loads is {loads!r}; give "weight" or "own"')
@@ -56,8 +56,8 @@ class Staging:
         carried = self._carried()
         if abs(carried) > 1e-6 * max(weighs, 1.0):
             raise ValueError(
-                f"gravity: the feet carry {carried:.4g} N already, and a second call would put the weight on twice; settle() lets "
-                "what has come in since come to rest, run() shakes the model as it stands"
+                f"gravity: the feet carry {carried:.4g} N already, and a second call would put the weight on twice; "
+                "settle() lets what has come in since come to rest, run() shakes the model as it stands"
             )
         if loads == "weight":
             series = take(self._free, lambda tag: ops.timeSeries("Linear", tag))
@@ -70,8 +70,8 @@ class Staging:
         self._check_loads(loads, weighs)
 
     def settle(self, steps: int = 10) -> None:
-        """Let what has come in since `gravity` come to rest with the rest: a tendon with an initial strain, a pattern of loads. The
-        time is zero after it.
+        """Let what has come in since `gravity` come to rest with the rest: a tendon with an initial strain, a pattern
+        of loads. The time is zero after it.
 
         ValueError: gravity() has not been called, or the model has moved since.
         """
@@ -84,15 +84,17 @@ class Staging:
         ops = self.ops
         if ops.getTime() != 0.0:
             raise ValueError(
-                f"{name}: the model's time is {ops.getTime():.4g}; loads have been put on or it has been shaken. After a static "
-                'analysis of your own call ops.loadConst("-time", 0.0), then run()'
+                f"{name}: the model's time is {ops.getTime():.4g}; loads have been put on or it has been shaken. After "
+                'a static analysis of your own call ops.loadConst("-time", 0.0), then run()'
             )
         if not (isinstance(steps, int) and steps > 0):
             raise ValueError(f"{name}: steps is {steps!r}; give a whole number above zero")
         ops.wipeAnalysis()
         self._solver("LoadControl", 1.0 / steps, kind="Static")
         if ops.analyze(steps) != 0:
-            raise StepError(f"{name} did not converge at {ops.getTime():.0%} of the load; check that the structure can stand")
+            raise StepError(
+                f"{name} did not converge at {ops.getTime():.0%} of the load; check that the structure can stand"
+            )
         ops.loadConst("-time", 0.0)
         ops.wipeAnalysis()
         self.steps = None
@@ -111,7 +113,8 @@ class Staging:
         return {node: mass for node, mass in masses.items() if mass > 0.0}
 
     def _measure_loads(self) -> None:
-        """Equilibrium: what the feet and all other supports bear is what was put on, whatever is prestressed in between."""
+        """Equilibrium: what the feet and all other supports bear is what was put on,
+        whatever is prestressed in between."""
         ops = self.ops
         grounds = {ground for group in self.groups for ground in group.grounds}
         ops.reactions()
@@ -125,21 +128,23 @@ class Staging:
         unweighed = GRAVITY * max(group.element_mass for group in self.groups)
         if loads == "weight" and unweighed > PART * weighs:
             text = (
-                f"gravity: elements have {unweighed / GRAVITY:.4g} kg of mass (-mass, -rho) beside the {weighs / GRAVITY:.4g} kg "
-                "of the nodes; the ground shakes it, but gravity() gives weight to nodal masses alone: put it on the nodes, or the "
-                'weight into a pattern, and call gravity("own")'
+                f"gravity: elements have {unweighed / GRAVITY:.4g} kg of mass (-mass, -rho) beside the "
+                f"{weighs / GRAVITY:.4g} kg of the nodes; the ground shakes it, but gravity() gives weight to nodal "
+                'masses alone: put it on the nodes, or the weight into a pattern, and call gravity("own")'
             )
             warnings.warn(text, GroundspringWarning, stacklevel=3)
         over = self.weight - weighs
         if loads == "weight" and over > PART * weighs:
             text = (
-                f"gravity: {self.weight:.4g} N press down in all, the nodal masses weigh {weighs:.4g} N: the model's own patterns "
-                f'put on {over:.4g} N. If that is the weight, it is on twice: begin anew and call gravity("own")'
+                f"gravity: {self.weight:.4g} N press down in all, the nodal masses weigh {weighs:.4g} N: the model's "
+                f"own patterns put on {over:.4g} N. If that is the weight, it is on twice: begin anew and call "
+                'gravity("own")'
             )
         elif loads == "own" and over < -PART * weighs:
             text = (
-                f'gravity("own"): the model\'s patterns put on {self.weight:.4g} N, the nodal masses weigh {weighs:.4g} N: '
-                f"{-over:.4g} N of weight are missing; call gravity() to have it put on, or add it to the patterns"
+                f'gravity("own"): the model\'s patterns put on {self.weight:.4g} N, the nodal masses '
+                f"weigh {weighs:.4g} N: {-over:.4g} N of weight are missing; call gravity() to have it put on, or add "
+                "it to the patterns"
             )
         else:
             return
@@ -156,9 +161,10 @@ class Staging:
             force = max((abs(x) for x in ops.eleForce(element)), default=0.0)
             if force > 1e-6 * max(self.weight, 1.0):
                 text = (
-                    f"run: element {element} ({ops.eleType(element)}) was put in after gravity() and carries {force:.4g} N at "
-                    "once: its length is that of the unloaded model, or it is prestressed. A Truss or zeroLength begins as it "
-                    "stands, a corotTruss or beam does not; call settle() if it is to come to rest with the structure"
+                    f"run: element {element} ({ops.eleType(element)}) was put in after gravity() and carries "
+                    f"{force:.4g} N at once: its length is that of the unloaded model, or it is prestressed. A Truss "
+                    "or zeroLength begins as it stands, a corotTruss or beam does not; call settle() if it is to come "
+                    "to rest with the structure"
                 )
                 warnings.warn(text, GroundspringWarning, stacklevel=4)
                 return

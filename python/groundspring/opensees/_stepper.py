@@ -29,7 +29,9 @@ def _topples(ops: Any, feet: Feet) -> float:
     """How high a foot is where a rigid body of the model's masses would topple, 2 b alpha, m."""
     places = [ops.nodeCoord(node) for node in feet.nodes]
     half = max((max(x for x, _ in places) - min(x for x, _ in places)) / 2.0, 1e-3 * _radius(ops, list(feet.nodes)))
-    masses = [(ops.nodeMass(node, 2), ops.nodeCoord(node)[1]) for node in ops.getNodeTags() if node not in feet.absorbers]
+    masses = [
+        (ops.nodeMass(node, 2), ops.nodeCoord(node)[1]) for node in ops.getNodeTags() if node not in feet.absorbers
+    ]
     total = math.fsum(mass for mass, _ in masses)
     height = math.fsum(mass * (y - places[0][1]) for mass, y in masses) / total if total > 0.0 else 0.0
     return float(2.0 * half * math.atan2(half, height))
@@ -41,7 +43,8 @@ class Stepper(Staging):
     ops          openseespy.opensees
     feet         of `add_feet`, or several of them: all structures of the model
     accuracy     wanted of the history, as a normalised error; halve it to see what the steps do
-    longest      step, s; half of a record's sampling interval unless given. Shorter ones follow vibrations of the structure
+    longest      step, s; half of a record's sampling interval unless given.
+                 Shorter ones follow vibrations of the structure
     landing      s, what a landing takes: 1/Omega_n of the vertical k1 unless given
     rise         of a foot, m, from which on its motion counts; a hundredth of where the structure topples unless given
     tolerance    of Newton's iteration: norm of the displacements' change, m; 1e-12 of the model's size unless given
@@ -51,8 +54,8 @@ class Stepper(Staging):
     Nothing of the model is wiped. The analysis objects, of which OpenSees has one set, are the stepper's from here on;
     recorders go on recording, at every step.
 
-    UntiedFeetWarning: three or more feet of one structure that nothing holds together, if neither `springs_for` nor `add_feet` saw
-    them all.
+    UntiedFeetWarning: three or more feet of one structure that nothing holds together, if neither `springs_for` nor
+    `add_feet` saw them all.
     """
 
     def __init__(
@@ -83,7 +86,12 @@ class Stepper(Staging):
         nodes = [node for group in self.groups for node in group.nodes]
         self.tolerance = 1e-12 * _radius(ops, nodes) if tolerance is None else tolerance
         self._free = itertools.count(max([FIRST_TAG, *ops.getNodeTags(), *ops.getEleTags()]) + 1)
-        self.given: dict[str, Any] = {"landing": landing, "rise": rise, "tolerance": tolerance, "constraints": constraints}
+        self.given: dict[str, Any] = {
+            "landing": landing,
+            "rise": rise,
+            "tolerance": tolerance,
+            "constraints": constraints,
+        }
         self.given["analysis"] = analysis
         self.steps: Any = None
         self._from = 0.0
@@ -125,7 +133,8 @@ class Stepper(Staging):
         account    keep the energies of the whole structure, too: `FeetHistory.account`
         vertical   ground acceleration at the record's times, positive upwards, if not that of the record
 
-        Every mass is shaken, those of elements and of the absorbers too. GroundspringWarning: an event was met in too long a step.
+        Every mass is shaken, those of elements and of the absorbers too.
+        GroundspringWarning: an event was met in too long a step.
         """
         ops = self.ops
         if not any((group.forces()[:, 1] > 0.0).any() for group in self.groups):
@@ -154,7 +163,9 @@ class Stepper(Staging):
                 if on_sample is not None:
                     on_sample(i, ops.getTime())
                 if progress and i * 10 // max(count - 1, 1) != (i - 1) * 10 // max(count - 1, 1):
-                    print(f"{ops.getTime():.2f} s of {start + (count - 1) * dt:.2f} s: {self.report()}", file=sys.stderr)
+                    print(
+                        f"{ops.getTime():.2f} s of {start + (count - 1) * dt:.2f} s: {self.report()}", file=sys.stderr
+                    )
         finally:
             self._watch = self._books = None
             self.history = watch.history()
@@ -178,27 +189,30 @@ class Stepper(Staging):
         duration: float | None = None,
         vertical: Record | None = None,
     ) -> Convergence:
-        """Run the record again with accuracy and longest step halved, and the springs two and four times as stiff, in turn; what
-        that changes.
+        """Run the record again with accuracy and longest step halved, and the springs two and four times as stiff, in
+        turn; what that changes.
 
-        build       makes the model anew, without feet, from `ops.wipe()` on: OpenSees cannot be taken back to where it began
+        build       makes the model anew, without feet, from `ops.wipe()` on:
+                    OpenSees cannot be taken back to where it began
         quantities  what is compared beside the uplift, by name: functions of the live model, such as
                     `lambda: ops.nodeDisp(5, 1)`; the largest magnitude over all steps counts
-        forces      the same of forces and moments, such as `lambda: ops.eleForce(3)[2]`: one that changes by less than 5 % is
-                    the structure's own, any other that of springs and steps. The feet's are looked at unasked
+        forces      the same of forces and moments, such as `lambda: ops.eleForce(3)[2]`: one that changes by less than
+                    5 % is the structure's own, any other that of springs and steps. The feet's are looked at unasked
         after       called after gravity: what comes into the model unstressed
         scale, duration, vertical   as for `run`
 
-        Feet, gravity and options are those of this stepper. A last run, whose ground shakes by a millionth more, says how much of
-        a change is the motion's own sensitivity. Six runs in all; the model is left as the last one left it. The history that `run`
-        gave of the same record learns which of its forces are the structure's.
+        Feet, gravity and options are those of this stepper. A last run, whose ground shakes by a millionth more, says
+        how much of a change is the motion's own sensitivity. Six runs in all; the model is left as the last one left
+        it. The history that `run` gave of the same record learns which of its forces are the structure's.
 
             roof, base = lambda: ops.nodeDisp(5, 1), lambda: ops.eleForce(3)[2]
             print(stepper.converged(record, build, {"roof": roof}, forces={"base moment": base}))
         """
         wanted, loads = dict(quantities or {}), dict(forces or {})
         if not all(map(callable, (*wanted.values(), *loads.values()))):
-            raise ValueError("converged: a quantity is not a function; give name: lambda: ops.nodeDisp(5, 1), and its like")
+            raise ValueError(
+                "converged: a quantity is not a function; give name: lambda: ops.nodeDisp(5, 1), and its like"
+            )
         names = ["uplift", *FEET, *wanted, *loads]
         for name in (*wanted, *loads):
             if names.count(name) > 1:
@@ -224,15 +238,15 @@ class Stepper(Staging):
         changes = steps.changes / max(time, 1e-9)
         if changes > 200.0 * len(steps.closed):
             cause = (
-                f"feet touch and lift {changes:.0f} times a second: the springs throw back what lands, as they do if they are for "
-                "more than lands there; take springs_for(ops, nodes)"
+                f"feet touch and lift {changes:.0f} times a second: the springs throw back what lands, as they do if "
+                "they are for more than lands there; take springs_for(ops, nodes)"
             )
         elif steps.refused > 0.01 * taken:
             cause = f"{steps.refused} pairs of steps had to be repeated shorter: look at the structure's own elements"
         else:
             cause = (
-                f"parts at the feet vibrate faster than the steps between landings ({self.landing:.1e} s) can pass over; damp "
-                "them, take them for rigid (equalDOF), or ask for less: a larger accuracy, softer springs"
+                f"parts at the feet vibrate faster than the steps between landings ({self.landing:.1e} s) can pass "
+                "over; damp them, take them for rigid (equalDOF), or ask for less: a larger accuracy, softer springs"
             )
         text = f"run: {taken} steps for {time:.3g} s of motion: {cause}"
         warnings.warn(text, GroundspringWarning, stacklevel=2)
@@ -250,8 +264,8 @@ class Stepper(Staging):
             # from 45 degrees on nothing brings it back
             if width > 0.0 and risen > 0.7 * width:
                 warnings.warn(
-                    f"run: a foot rose by {risen:.3g} m, the feet are {width:.3g} m apart: the structure overturned, what "
-                    "follows means nothing",
+                    f"run: a foot rose by {risen:.3g} m, the feet are {width:.3g} m apart: the structure overturned, "
+                    "what follows means nothing",
                     GroundspringWarning,
                     stacklevel=3,
                 )
@@ -308,6 +322,7 @@ class Stepper(Staging):
             for node, gap in zip(group.nodes, group.gaps(), strict=True)
         ]
         return (
-            f"stopped at t = {self.ops.getTime():.6f} s: Newton's iteration gives up however short the step ({self.report()}); "
-            f"{', '.join(feet)}; check the structure's own elements there, or give a larger tolerance than {self.tolerance:.1e} m"
+            f"stopped at t = {self.ops.getTime():.6f} s: Newton's iteration gives up however short the step "
+            f"({self.report()}); {', '.join(feet)}; check the structure's own elements there, or give a larger "
+            f"tolerance than {self.tolerance:.1e} m"
         )

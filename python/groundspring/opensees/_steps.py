@@ -34,9 +34,9 @@ def routine(ops: Any, elastic: bool) -> Any:
     steps: Any = names["Steps"]
 
     class OwnSteps(steps):  # type: ignore[misc]
-        """The decks' steps learn how fast a foot moves from long steps alone. Vibrations of an elastic structure may allow none for
-        a whole run, and every step would be as short as a landing asks: there it is learnt over as long a time in several
-        steps, too. Touches and lifts are counted.
+        """The decks' steps learn how fast a foot moves from long steps alone. Vibrations of an elastic structure may
+        allow none for a whole run, and every step would be as short as a landing asks: there it is learnt over as long
+        a time in several steps, too. Touches and lifts are counted.
         """
 
         def __init__(self, *arguments: Any, **named: Any) -> None:
