@@ -1,7 +1,8 @@
 // What happens when something changes: at once, at rest, and one after another.
 let module, quick, whole, last, run, spectrum, playing = 0, at = 0;
 let atRest = 0, wanted = false, asking = false, version = 0, lastRecord = null;
-const REST_MS = 300;
+const REST_MS = 300, WAIT_MS = 400;
+let answered = 0;
 window.measures = { moves: [], tune: 0, memory: () => [quick?.memory ?? 0, whole?.memory ?? 0] };
 
 function changed() {
@@ -12,6 +13,9 @@ function changed() {
   if (whole?.busy) whole.restart();
   run = null;
   atRest = setTimeout(rest, REST_MS);
+  const of = version;
+  // an answer to what was asked before does not stay
+  setTimeout(() => { if (of === version && answered !== of) { $("verdict").className = "verdict"; $("word").textContent = "Computing ..."; for (const id of ["asked", "sentence", "tiles", "remarks"]) $(id).replaceChildren(); $("gauge-fill").style.width = "0"; } }, WAIT_MS);
   askAtOnce();
 }
 // a pulse is a file like any other
@@ -38,6 +42,7 @@ async function askAtOnce() {
       last = JSON.parse(answer);
       if (!run || of === version) { showSaid(last); window.measures.moves.push([performance.now() - began, took]); requestAnimationFrame(() => setTimeout(() => window.measures.moves.at(-1).push(performance.now() - began))); }
     } catch (error) { if (error.message !== "stopped") showError(error.message); }
+    answered = of;
   }
   asking = false;
 }
@@ -71,7 +76,7 @@ async function rest() {
 let restHash = "";
 async function tune(of) {
   const rigid = state.kind === "block" || state.kind === "aframe";
-  $("tune-state").textContent = rigid ? "searching for springs as accurate as asked, a few seconds ..." : "searching for springs as accurate as asked, about ten seconds for a structure that gives ...";
+  $("tune-state").textContent = rigid ? "searching for springs as accurate as asked, a few seconds ..." : "searching for springs as accurate as asked, ten seconds to a minute for a structure that gives ...";
   $("tuned").replaceChildren();
   try {
     whole ??= new Computer(module);
@@ -101,13 +106,15 @@ function showSaid(said, ofRun = false) {
   // beyond the height the top lies on the ground
   h.limit = said.does === "overturns" ? 1.2 * Math.sin(Math.min(1.5, w.alpha)) * 2 * w.radius_m : undefined;
   last = said;
+  answered = version;
+  const share = said.does === "overturns" ? 1 : (said.share_of_overturning ?? 0), back = said.does === "rocks" && share > 1;
   const box = $("verdict"), doubt = said.findings.some((f) => f.finding === "ill_conditioned" || f.finding === "models_disagree");
-  box.className = `verdict ${said.does}${doubt ? " doubt" : ""}`;
+  box.className = `verdict ${said.does}${doubt || back ? " doubt" : ""}`;
   const named = state.rec === "elcentro" ? "El Centro 1940" : state.rec === "pulse" ? `a pulse of ${digits(state.amp)} g and ${digits(state.per)} s` : state.file;
-  $("asked").textContent = `${state.kind === "aframe" ? "An" : "A"} ${KINDS[state.kind].title} ${withUnit(value("h"), LENGTH)} high, ${withUnit(value("w"), LENGTH)} wide, in ${named}${state.scale === 1 ? "" : ` times ${digits(state.scale)}`}:`;
-  $("word").textContent = doubt ? `${WORDS[said.does]} here, by chance` : WORDS[said.does];
+  $("asked").textContent = `${state.kind === "aframe" ? "An" : "A"} ${KINDS[state.kind].title} ${withUnit(value("h"), LENGTH)} high, ${state.kind === "frame" ? "on footings " : state.kind === "pier" ? "on a footing " : ""}${withUnit(value("w"), LENGTH)} wide, in ${named}${state.scale === 1 ? "" : ` times ${digits(state.scale)}`}:`;
+  const word = back ? "It passes its balance and comes back" : WORDS[said.does];
+  $("word").textContent = doubt ? `${word} here, by chance` : word;
   $("sentence").textContent = said.verdict;
-  const share = said.does === "overturns" ? 1 : (said.share_of_overturning ?? 0);
   $("gauge-fill").style.width = `${Math.min(100, 100 * share)}%`;
   $("gauge").setAttribute("aria-label", said.does === "overturns" ? "It overturns" : `Largest rotation: ${digits(100 * share, 3)} % of what overturns it`);
   const p = said.peaks?.with_members ?? said.peaks?.springs, down = said.does === "stays_down";
@@ -183,7 +190,7 @@ async function fixedStep() {
   try {
     const f = JSON.parse((await quick.call("fixed_step", caseText(), step, $("integrator").value)).answer);
     const percent = (x) => `${E(100 * x, 2)} %`;
-    $("fixed").innerHTML = `${springsTable(f.springs, "each foot", "Springs for fixed steps")}<p class="small">On this record: ${escape(f.outcome)}${f.nrmse === null ? "" : `, error of the history ${percent(f.nrmse)} (NRMSE)`}; largest rotation ${percent(f.peak_ratio[0])} of overturning, Housner's ${percent(f.peak_ratio[1])}. Expected on other motions: median ${percent(f.median)}, nine in ten below ${percent(f.ninety)}; the step alone makes ${percent(f.floor)}. Newton's iteration to increments of ${E(f.tolerance_m, 3)} m; rotational inertia of the model ${E(f.rotational_inertia_kgm2)} kg m². ${E(f.steps)} steps.</p>`;
+    $("fixed").innerHTML = `${springsTable(f.springs, "each foot", "Springs for fixed steps")}<p class="${f.nrmse === null ? "error" : "small"}">${f.nrmse === null ? "Not to be used here. " : ""}On this record: ${escape(f.outcome)}${f.nrmse === null ? "" : `, error of the history ${percent(f.nrmse)} (NRMSE)`}; largest rotation ${percent(f.peak_ratio[0])} of overturning, Housner's ${percent(f.peak_ratio[1])}. Expected on other motions: median ${percent(f.median)}, nine in ten below ${percent(f.ninety)}; the step alone makes ${percent(f.floor)}. Newton's iteration to increments of ${E(f.tolerance_m, 3)} m; rotational inertia of the model ${E(f.rotational_inertia_kgm2)} kg m². ${E(f.steps)} steps.</p>`;
   } catch (error) { if (error.message !== "stopped") $("fixed").innerHTML = `<p class="error">${escape(error.message)}</p>`; }
 }
 
@@ -208,12 +215,18 @@ async function charts(of) {
     caption(rows);
   };
   try {
-    const len = unitOf(LENGTH), b = w.half_width_m, widths = spread(0.4, 2.5, 64).filter((f) => { const a = Math.atan((f * b) / w.height_m); return a > 0.006 && a < 0.88; });
+    const len = unitOf(LENGTH), b = w.half_width_m;
+    // a lattice of its own, so that what is found of widths does not hang on the one given
+    const lattice = Array.from({ length: 75 }, (_, i) => 1.025 ** (Math.ceil(Math.log(0.8 * b) / Math.log(1.025)) + i) / (2 * b)), widths = lattice.filter((f) => { const a = Math.atan((f * b) / w.height_m); return a > 0.006 && a < 0.88; });
     // the rigid body's own width: of a portal that of one footing
     const own = value(KINDS[state.kind].width) * len.by;
     await fill("plot-width", widths, (f) => ({ alpha: Math.atan((f * b) / w.height_m), radius_m: Math.hypot(f * b, w.height_m) }), { own, by: own, xName: `width, ${len.unit}; dashed: as given`, range: [widths[0] * own, widths.at(-1) * own] }, (rows) => {
       const falls = rows.findLastIndex(([, s]) => s === null);
-      $("width-caption").textContent = falls < 0 ? `No width tried falls (${digits(rows[0][0], 3)} to ${digits(rows.at(-1)[0], 3)} ${len.unit}).` : falls === rows.length - 1 ? `It falls even ${digits(rows[falls][0], 3)} ${len.unit} wide.` : `It stands with every width tried from ${digits(rows[falls + 1][0], 3)} ${len.unit} on; the widest that falls has ${digits(rows[falls][0], 3)} ${len.unit}.`;
+      $("width-caption").textContent = falls < 0 ? `No width tried falls (${digits(rows[0][0], 3)} to ${digits(rows.at(-1)[0], 3)} ${len.unit}).` : falls === rows.length - 1 ? `It falls even ${digits(rows[falls][0], 3)} ${len.unit} wide.` : (() => {
+        const narrow = rows.findIndex(([, s]) => s !== null), at = (i) => digits(rows[i][0], 3);
+        const edge = narrow < falls ? `From ${at(narrow)} to ${at(falls)} ${len.unit} some stand and some fall: small changes decide there. ` : "";
+        return `${edge}Every width tried from ${at(falls + 1)} ${len.unit} on stands (steps of 2.5 %); take a margin.`;
+      })();
     });
     if (stale()) return;
     const range = [0.05, Math.max(3, 2 * state.scale)], scales = spread(...range, 64);

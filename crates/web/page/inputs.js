@@ -7,8 +7,8 @@ function field(name, of, get, set) {
   const unit = unitOf(of.unit), box = document.createElement("div");
   box.className = "field";
   const inUnit = (x) => Number((x * unit.by).toPrecision(unit.by === 1 ? 9 : 5));
-  box.innerHTML = `<div class="top"><label for="n-${name}">${of.name}</label><span class="number"><input type="number" id="n-${name}" step="any" min="${digits(of.least * unit.by, 6).replace(/ /g, "")}" max="${digits(of.most * unit.by, 6).replace(/ /g, "")}"><b>${unit.unit}</b></span></div><input type="range" id="s-${name}" min="0" max="1" step="0.002" aria-label="${of.name}, slider">`;
-  const number = box.querySelector("[type=number]"), slider = box.querySelector("[type=range]");
+  box.innerHTML = `<div class="top"><label for="n-${name}">${of.name}</label><span class="number"><input type="number" id="n-${name}" step="any" min="${digits(of.least * unit.by, 6).replace(/ /g, "")}" max="${digits(of.most * unit.by, 6).replace(/ /g, "")}"><b>${unit.unit}</b></span></div><small class="error" role="alert" hidden></small><input type="range" id="s-${name}" min="0" max="1" step="0.002" aria-label="${of.name}, slider">`;
+  const number = box.querySelector("[type=number]"), slider = box.querySelector("[type=range]"), limits = box.querySelector("small");
   const show = (skip) => {
     if (skip !== number) number.value = String(inUnit(get()));
     slider.value = String(toSlide(get(), of));
@@ -19,9 +19,20 @@ function field(name, of, get, set) {
     const x = Number(number.value) / unit.by;
     const good = number.value !== "" && x >= of.least * 0.999999 && x <= of.most * 1.000001;
     number.setAttribute("aria-invalid", String(!good));
+    limits.hidden = good;
+    limits.textContent = good ? "" : `${of.name}: from ${digits(of.least * unit.by, 3)} to ${digits(of.most * unit.by, 3)} ${unit.unit}; the answer is for ${inUnit(get())} ${unit.unit}`;
     if (good) { set(Number(x.toPrecision(9))); show(number); changed(); }
   });
-  number.addEventListener("blur", () => { number.removeAttribute("aria-invalid"); show(); });
+  number.addEventListener("blur", () => { number.removeAttribute("aria-invalid"); limits.hidden = true; show(); });
+  // arrows change the second digit
+  number.addEventListener("keydown", (event) => {
+    const way = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+    if (!way) return;
+    event.preventDefault();
+    const x = Number(number.value), by = 10 ** (Math.floor(Math.log10(Math.abs(x) || 1)) - 1);
+    number.value = String(Number((x + way * by).toPrecision(6)));
+    number.dispatchEvent(new Event("input"));
+  });
   show();
   places[name] = show;
   return box;
