@@ -9,7 +9,7 @@ const WARNING: &str = "warning   ";
 /// Lines that one warning may take.
 const LONGEST_WARNING: usize = 3;
 /// Letters of a message that a remedy leaves of it at least.
-const LEAST_MESSAGE: usize = 40;
+const LEAST_MESSAGE: usize = 34;
 
 /// What changes a design the most is told first.
 fn urgency(finding: &Finding) -> usize {
