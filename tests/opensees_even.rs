@@ -17,7 +17,7 @@ fn interpreter(format: &str) -> Option<Vec<String>> {
 /// Decks of even steps and of substeps at touches end within 1 % of what our emulation found, which
 /// they check by themselves, in Python and in Tcl; a block, a frame, three integrators.
 #[test]
-#[ignore = "needs OpenSees; .ci/run runs it: cargo test -r --test opensees_even -- --ignored"]
+#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
 fn decks_of_even_steps_find_what_the_emulation_found() {
     let folder = tempfile::tempdir().unwrap();
     let run = |args: &[&str]| {

@@ -61,7 +61,7 @@ fn column(folder: &tempfile::TempDir, file: &str, name: &str) -> Vec<f64> {
 /// OpenSees' history of a column of two elements with a mass of its own, beside rigid ground with
 /// plastic landings: nearer on stiffer springs.
 #[test]
-#[ignore = "needs OpenSees; .ci/run runs it: cargo test -r --test opensees -- --ignored"]
+#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
 fn a_column_of_several_elements_in_opensees_converges_to_plastic_landings() {
     let column_of_two = "column_mass_kg = 40e3\nelements = 2\n\n[record]\nduration_s = 5.0\n";
     let case = include_str!("../../tuning/pier.toml");
@@ -100,7 +100,7 @@ damping_ratio = 0.02
 ";
 
 #[test]
-#[ignore = "needs OpenSees; .ci/run runs it: cargo test -r --test opensees -- --ignored"]
+#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
 fn elastic_structures_agree() {
     let python = &programs()[0];
     elastic_agrees(include_str!("../../tuning/pier.toml"), &[], "5", python);
@@ -110,7 +110,7 @@ fn elastic_structures_agree() {
 /// The Tcl interpreter that pip installs has no damping objects: without damping it must find what
 /// Python finds.
 #[test]
-#[ignore = "needs OpenSees; .ci/run runs it: cargo test -r --test opensees -- --ignored"]
+#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
 fn an_undamped_elastic_structure_agrees_in_every_language() {
     for program in programs() {
         elastic_agrees(
@@ -124,7 +124,7 @@ fn an_undamped_elastic_structure_agrees_in_every_language() {
 
 /// Rocking piers of El Centro's first seconds, damped at their corners and tied down.
 #[test]
-#[ignore = "needs OpenSees; .ci/run runs it: cargo test -r --test opensees -- --ignored"]
+#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
 fn an_elastic_structure_with_dampers_and_a_tendon_agrees_in_every_language() {
     let pier = include_str!("../../tuning/pier.toml")
         .replace("damping_ratio = 0.02", "damping_ratio = 0.0");
