@@ -16,18 +16,22 @@ pub(crate) struct Refinement {
     samples: usize,
     /// Iterations of each.
     iterations: u64,
-    /// Spread of the errors of a simplex, over the sample's, at which it ends.
+    /// Spread of the errors of a simplex, over the sample's, at which it ends; `LEAST_SPREAD` at
+    /// least.
     spread: f64,
 }
 
+/// Spread of the errors of a simplex at which it ends at the latest.
+const LEAST_SPREAD: f64 = 1e-7;
+
 impl Refinement {
     /// Of the springs that a user asks for.
-    pub(crate) const SOUGHT: Self = Self { samples: 2, iterations: 24, spread: 1e-5 };
+    pub(crate) const SOUGHT: Self = Self { samples: 2, iterations: 24, spread: 0.0 };
     /// Of the springs beside those from the geometry: to three digits of the error, which is all
     /// that is compared.
     pub(crate) const COMPARED: Self = Self { samples: 1, iterations: 24, spread: 1e-3 };
     /// Of springs that follow those of another stiffness.
-    pub(super) const FOLLOWING: Self = Self { samples: 1, iterations: 10, spread: 1e-5 };
+    pub(super) const FOLLOWING: Self = Self { samples: 1, iterations: 10, spread: 0.0 };
 
     /// Evaluations that are planned.
     pub(super) fn evaluations(&self) -> usize {
@@ -107,7 +111,8 @@ impl Refinement {
         // an error well above the start's cannot help, but its size still steers the simplex
         let problem =
             OuterProblem { benchmark, pair, limit: 2.0 * start, seen: Default::default() };
-        let run = NelderMead::new(simplex).with_sd_tolerance(self.spread * start).map(|solver| {
+        let spread = LEAST_SPREAD.max(self.spread * start);
+        let run = NelderMead::new(simplex).with_sd_tolerance(spread).map(|solver| {
             Executor::new(problem, solver).configure(|state| state.max_iters(self.iterations)).run()
         });
         match run {
