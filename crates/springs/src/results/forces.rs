@@ -161,8 +161,8 @@ impl DesignForces {
         those.map(|(name, force)| Finding::ForceWithheld {
             force: name,
             change: force.change,
-            // an elastic structure has forces with another mesh, too
-            housner: force.rigid.filter(|_| force.others.is_none()),
+            // those of elastic structures have a raw one beside them
+            housner: force.rigid.filter(|_| force.raw.is_none()),
         })
     }
 }
