@@ -312,14 +312,7 @@ def medians(emulator, count, steps):
             errors, stopped = ([], []), [0, 0]
             motions = emulator.ask({"references": count, "seed": 77, "body": heavy})
             for motion in motions:
-                case = dict(
-                    body=heavy,
-                    integrator=integrator,
-                    step=step,
-                    dt=motion["dt"],
-                    accel=motion["accel"],
-                    **{key: recipe[key] for key in ("vertical", "horizontal", "tolerance")},
-                )
+                case = case_of(heavy, integrator, step, motion, recipe)
                 for k, found in enumerate((emulator.ask(case), in_opensees(case))):
                     if found["stopped"] is None and len(found["u"]) == len(motion["u"]):
                         errors[k].append(nrmse(found["u"], motion["u"]))
@@ -336,6 +329,12 @@ def medians(emulator, count, steps):
             )
 
 
+def case_of(body, integrator, step, motion, recipe):
+    """What both programs are asked: a body on the springs of the recipe under a motion."""
+    springs = {key: recipe[key] for key in ("vertical", "horizontal", "tolerance")}
+    return dict(body=body, integrator=integrator, step=step, dt=motion["dt"], accel=motion["accel"], **springs)
+
+
 def touches(emulator, count, substeps, step=1e-3):
     """Touch refinement in OpenSees: its errors against Housner, ours on the same motions,
     both histories beside each other."""
@@ -346,15 +345,7 @@ def touches(emulator, count, substeps, step=1e-3):
             recipe = emulator.ask({"recipe": integrator, "step": step, "body": body, "at_touches": substeps})
             heavy = [*body[:3], recipe["inertia"]]
             for motion in emulator.ask({"references": count, "seed": 77, "body": heavy}):
-                case = dict(
-                    body=heavy,
-                    integrator=integrator,
-                    step=step,
-                    dt=motion["dt"],
-                    accel=motion["accel"],
-                    at_touches=substeps,
-                    **{key: recipe[key] for key in ("vertical", "horizontal", "tolerance")},
-                )
+                case = case_of(heavy, integrator, step, motion, recipe) | {"at_touches": substeps}
                 ours, theirs = emulator.ask(case), in_opensees(case)
                 print(
                     f"| {name} | {integrator} | {nrmse(ours['u'], motion['u']):.5f} "
