@@ -87,6 +87,7 @@ async function tune(of) {
     if (of !== version) return;
     window.measures.tune = performance.now() - began;
     run = JSON.parse(answer);
+    answered = of;
     showSaid(run.said, true);
     await showTuned(run, text);
   } catch (error) {
@@ -106,7 +107,6 @@ function showSaid(said, ofRun = false) {
   // beyond the height the top lies on the ground
   h.limit = said.does === "overturns" ? 1.2 * Math.sin(Math.min(1.5, w.alpha)) * 2 * w.radius_m : undefined;
   last = said;
-  answered = version;
   const share = said.does === "overturns" ? 1 : (said.share_of_overturning ?? 0), back = said.does === "rocks" && share > 1;
   const box = $("verdict"), doubt = said.findings.some((f) => f.finding === "ill_conditioned" || f.finding === "models_disagree");
   box.className = `verdict ${said.does}${doubt || back ? " doubt" : ""}`;
