@@ -66,7 +66,7 @@ pub fn run(o: &ExportOptions) -> Result<(), CommandError> {
 
 /// How the deck steps, there being springs for this program.
 fn stepping<U>(o: &ExportOptions, program: Option<&ProgramRow<U>>) -> Stepping {
-    let csi = o.format == DeckFormat::Sap2000 && program.is_some_and(ProgramRow::is_csi);
+    let csi = o.format.is_sap2000() && program.is_some_and(ProgramRow::is_csi);
     o.stepping.unwrap_or(if csi { Stepping::Even } else { Stepping::Events })
 }
 

@@ -81,15 +81,19 @@ impl ElasticDeck<'_> {
         Ok(match format {
             DeckFormat::OpenSeesPy => self.fill(&PYTHON, include_str!("elastic_deck.py"))?,
             DeckFormat::OpenSeesTcl => self.fill(&TCL, include_str!("elastic_deck.tcl"))?,
-            DeckFormat::Sap2000 => {
-                self.without_members(format)?;
-                let even = self.even()?;
-                even.iter().try_for_each(EvenSteps::in_tables)?;
-                sap2000::tables(&sap2000::SapModel::elastic(self, even))
-            }
+            DeckFormat::Sap2000 => sap2000::tables(&self.sap2000(format)?),
+            DeckFormat::Sap2000Sheet => sap2000::sheet(&self.sap2000(format)?),
             DeckFormat::Csv => plain::csv(&self.places()),
             DeckFormat::Markdown => plain::markdown(self.title, &self.places()),
         })
+    }
+
+    /// The model for SAP2000.
+    fn sap2000(&self, format: DeckFormat) -> Result<sap2000::SapModel<'_>, ExportError> {
+        self.without_members(format)?;
+        let even = self.even()?;
+        even.iter().try_for_each(EvenSteps::in_tables)?;
+        Ok(sap2000::SapModel::elastic(self, even))
     }
 
     /// Settings of steps of one size, if the springs are for such.

@@ -5,6 +5,7 @@
 //! | [`DeckFormat::OpenSeesPy`] | one Python file for `openseespy` that builds, runs and checks itself |
 //! | [`DeckFormat::OpenSeesTcl`] | the same for OpenSees' Tcl interpreter |
 //! | [`DeckFormat::Sap2000`] | .s2k text tables for File > Import > SAP2000 .s2k Text File |
+//! | [`DeckFormat::Sap2000Sheet`] | the same model as a sheet to type from |
 //! | [`DeckFormat::Csv`], [`DeckFormat::Markdown`] | k1, k2, m2, c per foot and direction, for everyone else |
 //!
 //! Numbers are written with 17 significant digits, so that a deck holds exactly what was tuned. SI
@@ -54,6 +55,8 @@ pub enum DeckFormat {
     OpenSeesTcl,
     /// SAP2000 text tables.
     Sap2000,
+    /// The same model to type from.
+    Sap2000Sheet,
     /// k1, k2, m2, c as CSV.
     Csv,
     /// The same as Markdown.
@@ -62,8 +65,19 @@ pub enum DeckFormat {
 
 impl DeckFormat {
     /// Every format.
-    pub(crate) const ALL: [Self; 5] =
-        [Self::OpenSeesPy, Self::OpenSeesTcl, Self::Sap2000, Self::Csv, Self::Markdown];
+    pub(crate) const ALL: [Self; 6] = [
+        Self::OpenSeesPy,
+        Self::OpenSeesTcl,
+        Self::Sap2000,
+        Self::Sap2000Sheet,
+        Self::Csv,
+        Self::Markdown,
+    ];
+
+    /// Whether it is for SAP2000.
+    pub fn is_sap2000(self) -> bool {
+        matches!(self, Self::Sap2000 | Self::Sap2000Sheet)
+    }
 
     /// Its name on the command line.
     pub(crate) fn name(self) -> &'static str {
@@ -71,6 +85,7 @@ impl DeckFormat {
             Self::OpenSeesPy => "openseespy",
             Self::OpenSeesTcl => "opensees-tcl",
             Self::Sap2000 => "sap2000",
+            Self::Sap2000Sheet => "sap2000-sheet",
             Self::Csv => "csv",
             Self::Markdown => "markdown",
         }
@@ -82,6 +97,7 @@ impl DeckFormat {
             Self::OpenSeesPy => "py",
             Self::OpenSeesTcl => "tcl",
             Self::Sap2000 => "s2k",
+            Self::Sap2000Sheet => "txt",
             Self::Csv => "csv",
             Self::Markdown => "md",
         }
@@ -263,7 +279,7 @@ pub fn export(
 /// The text of a deck.
 fn export_model(model: &DeckModel, format: DeckFormat) -> Result<String, ExportError> {
     let record = model.record;
-    let (members, sap2000) = (&model.members, format == DeckFormat::Sap2000);
+    let (members, sap2000) = (&model.members, format.is_sap2000());
     for (name, left_out) in [
         ("friction", members.friction.is_some() && sap2000),
         ("damper", members.damper.is_some() && sap2000),
@@ -278,6 +294,7 @@ fn export_model(model: &DeckModel, format: DeckFormat) -> Result<String, ExportE
         DeckFormat::OpenSeesPy => opensees::python(model)?,
         DeckFormat::OpenSeesTcl => opensees::tcl(model)?,
         DeckFormat::Sap2000 => sap2000::tables(&sap2000::SapModel::rigid(model)),
+        DeckFormat::Sap2000Sheet => sap2000::sheet(&sap2000::SapModel::rigid(model)),
         DeckFormat::Csv => plain::csv(&model.places()),
         DeckFormat::Markdown => plain::markdown(&model.title(), &model.places()),
     })

@@ -20,6 +20,7 @@ mod cases;
 mod elastic;
 mod links;
 mod parts;
+mod sheet;
 
 use std::fmt::{Display, Write};
 
@@ -28,6 +29,7 @@ use cases::{cases, loads, record};
 use links::links;
 pub(super) use parts::SapModel;
 use parts::{Bar, FootJoints, SapSection};
+pub(super) use sheet::sheet;
 
 /// N to KN, and kg to KN s2/m.
 const KILO: f64 = 1e-3;

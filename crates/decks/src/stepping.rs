@@ -243,11 +243,11 @@ pub fn stepped_deck(
             return Err(ExportError::MemberOfSteps { name });
         }
     }
-    if stepping == Stepping::Touches && format == DeckFormat::Sap2000 {
+    if stepping == Stepping::Touches && format.is_sap2000() {
         return Err(ExportError::TouchesInTables);
     }
     let stepped = Stepped::new(parameters, stepping)?;
-    if format == DeckFormat::Sap2000 {
+    if format.is_sap2000() {
         stepped.steps.in_tables()?;
     }
     let FixedStepHistory { motion, outcome, .. } = stepped.history(record);

@@ -185,7 +185,10 @@ fn numbers_that_make_no_deck_are_refused_in_one_line() {
         .to_string();
     assert!(error.contains("4000") && error.contains("3995"), "{error}");
     let error = "nastran".parse::<DeckFormat>().unwrap_err().to_string();
-    assert!(error.contains("openseespy, opensees-tcl, sap2000, csv, markdown"), "{error}");
+    assert!(
+        error.contains("openseespy, opensees-tcl, sap2000, sap2000-sheet, csv, markdown"),
+        "{error}"
+    );
 }
 
 /// Rows of every table of an .s2k text: name -> [field -> value].

@@ -162,7 +162,8 @@ fn programs(run: &Run) -> (&'static str, &'static str, String) {
                     }
                     true => {
                         " <code>decks/model_sap2000.s2k</code> holds the model, these springs and \
-                            these settings; it could not be tried with the program."
+                            these settings; it could not be tried with the program. \
+                            <code>decks/sap2000_by_hand.txt</code> is the same to type from."
                     }
                     false => {
                         " No SAP2000 deck was written: its tables leave vertical motion, dampers, \

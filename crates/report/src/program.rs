@@ -39,6 +39,9 @@ pub struct ProgramReport {
     /// Whether it is OpenSees with steps of one size, which has a deck of its own.
     #[serde(skip)]
     pub(crate) deck_of_even_steps: bool,
+    /// Whether it is SAP2000 or ETABS, for which a run writes a sheet to type from.
+    #[serde(skip)]
+    pub(crate) csi: bool,
     /// Why they are stiffer than the closed form has them, if they are.
     #[serde(skip)]
     stiffer: Option<&'static str>,
@@ -138,6 +141,7 @@ impl ProgramReport {
             table: table(row),
             usable: measured_on(row).is_none_or(|errors| errors.peak[0].is_some()),
             deck_of_even_steps: row.is_opensees_even(),
+            csi: row.is_csi(),
             stiffer: row.stiffer_for_earthquakes.then_some(
                 "Omega_n is twice that of the closed form: on earthquake-like motions, which sway \
                     the structure before it lifts, such springs are better by more than they lose \
@@ -232,11 +236,12 @@ fn errors<U>(row: &ProgramRow<U>, peaks: &str) -> String {
     if median.is_none() {
         return format!("NOT to be used: {} of {n} motions lost", errors.lost);
     }
-    let spread = match errors.lost {
-        0 => format!("median of {n}; 90 %: {}", cell(ninety)),
-        lost => format!("median; {lost} of {n} motions lost"),
+    let lost = match errors.lost {
+        0 => format!("on {n} motions"),
+        lost => format!("{lost} of {n} motions lost"),
     };
-    format!("{peaks} within {}{history} ({spread})", cell(median))
+    let ninety = ninety.map_or(String::new(), |error| format!(", {} (90 %)", percent(error)));
+    format!("{peaks} within {} (median){ninety}{history}; {lost}", cell(median))
 }
 
 fn table<U>(row: &ProgramRow<U>) -> Table {

@@ -265,15 +265,13 @@ impl ElasticRun {
         ];
         let decks = models::decks(|format| self.deck(format))?;
         let program = self.parameters.program.as_ref();
-        let even = program.map_or_else(
-            || Ok(RunTexts::default()),
-            |row| {
-                models::even_decks(Some(row), |format| {
-                    stepped_deck(&self.assembled, row, &self.record, format)
-                })
-            },
-        )?;
-        let decks = decks.and(even);
+        let of_steps = |row| {
+            let deck = |format| stepped_deck(&self.assembled, row, &self.record, format);
+            Ok::<_, FolderError>(
+                models::even_decks(Some(row), deck)?.and(models::sheet(Some(row), deck)?),
+            )
+        };
+        let decks = decks.and(program.map_or_else(|| Ok(RunTexts::default()), of_steps)?);
         let mut files: Vec<_> =
             files.into_iter().map(|(name, text)| (name.to_string(), text)).collect();
         files.extend(decks.files);

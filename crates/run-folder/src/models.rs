@@ -1,7 +1,7 @@
 //! The decks of a run.
 
 use decks::{DeckFormat, ExportError, SteppedDeck};
-use report::screen::EVEN_DECK;
+use report::screen::{EVEN_DECK, SHEET};
 use springs::parameters::program::ProgramRow;
 
 use crate::{FolderError, texts::RunTexts};
@@ -40,6 +40,20 @@ pub(crate) fn even_decks<U>(
     }
 }
 
+/// The sheet for SAP2000 or ETABS, on springs for the program's steps; none for another program.
+pub(crate) fn sheet<U>(
+    program: Option<&ProgramRow<U>>,
+    deck: impl Fn(DeckFormat) -> Result<SteppedDeck, ExportError>,
+) -> Result<RunTexts, FolderError> {
+    if !program.is_some_and(ProgramRow::is_csi) {
+        return Ok(RunTexts::default());
+    }
+    let texts =
+        gathered(&[(SHEET, DeckFormat::Sap2000Sheet)], |_, format| Ok((deck(format)?.text, None)))?;
+    // of what the tables have not they tell themselves
+    Ok(RunTexts { left_out: Vec::new(), ..texts })
+}
+
 fn gathered(
     decks: &[(&str, DeckFormat)],
     text: impl Fn(&str, DeckFormat) -> Result<(String, Option<String>), ExportError>,
@@ -49,10 +63,14 @@ fn gathered(
         match text(name, format) {
             // said, not fatal: the other decks are of use
             Err(
-                e @ (ExportError::Member { .. }
-                | ExportError::MemberOfSteps { .. }
-                | ExportError::Integrator { .. }),
-            ) => texts.left_out.push(format!("{name} is left out: {e}")),
+                ExportError::Member { name: member, .. }
+                | ExportError::MemberOfSteps { name: member },
+            ) => texts
+                .left_out
+                .push(format!("{name} is left out, it has no {member}: take a deck for OpenSees")),
+            Err(e @ ExportError::Integrator { .. }) => {
+                texts.left_out.push(format!("{name} is left out: {e}"));
+            }
             deck => {
                 let (text, line) = deck?;
                 texts.files.push((format!("decks/{name}"), text));

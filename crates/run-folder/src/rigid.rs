@@ -42,6 +42,7 @@ const FILES: &[&str] = &[
     "decks/model_even.py",
     "decks/model_even.tcl",
     "decks/model_sap2000.s2k",
+    "decks/sap2000_by_hand.txt",
     "decks/springs.csv",
     "decks/springs.md",
 ];
@@ -188,7 +189,10 @@ fn run_decks(
     let even = models::even_decks(parameters.program.as_ref(), |format| {
         decks::stepped_deck(&parameters, record, format, Stepping::Even)
     })?;
-    Ok(all.and(even))
+    let sheet = models::sheet(parameters.program.as_ref(), |format| {
+        decks::stepped_deck(&parameters, record, format, Stepping::Even)
+    })?;
+    Ok(all.and(even).and(sheet))
 }
 
 #[cfg(test)]

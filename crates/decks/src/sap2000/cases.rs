@@ -105,19 +105,19 @@ pub(super) fn cases(parts: &SapModel) -> Vec<SapTable> {
 }
 
 /// How the program steps.
-struct CaseSettings {
+pub(super) struct CaseSettings {
     integrator: Integrator,
     /// Substeps (s); 0: as the program has them.
-    longest: String,
-    shortest: String,
-    constant: usize,
-    newton: usize,
-    tolerance: String,
+    pub(super) longest: String,
+    pub(super) shortest: String,
+    pub(super) constant: usize,
+    pub(super) newton: usize,
+    pub(super) tolerance: String,
 }
 
 impl CaseSettings {
     /// On springs for its steps; else as a public generator of such tables has them.
-    fn of(even: Option<EvenSteps>) -> Self {
+    pub(super) fn of(even: Option<EvenSteps>) -> Self {
         match even {
             Some(even) => Self {
                 integrator: even.integrator,
@@ -138,18 +138,28 @@ impl CaseSettings {
         }
     }
 
-    /// Its integrator: Newmark's method, or Hilber-Hughes-Taylor's; others are refused before.
+    /// Its method: Newmark's, or Hilber-Hughes-Taylor's; others are refused before.
+    pub(super) fn method(&self) -> &'static str {
+        match self.integrator {
+            Integrator::Newmark { .. } => "Newmark",
+            _ => "HilberHughesTaylor",
+        }
+    }
+
+    /// Gamma, beta, alpha.
+    pub(super) fn constants(&self) -> [f64; 3] {
+        match self.integrator {
+            Integrator::Newmark { gamma, beta } => [gamma, beta, 0.0],
+            Integrator::Hht { alpha } => [0.5 - alpha, 0.25 * (1.0 - alpha).powi(2), alpha],
+            _ => [5.0 / 6.0, 4.0 / 9.0, -1.0 / 3.0],
+        }
+    }
+
     fn integration(&self) -> SapTable {
-        let (method, gamma, beta, alpha) = match self.integrator {
-            Integrator::Newmark { gamma, beta } => ("Newmark", gamma, beta, 0.0),
-            Integrator::Hht { alpha } => {
-                ("HilberHughesTaylor", 0.5 - alpha, 0.25 * (1.0 - alpha).powi(2), alpha)
-            }
-            _ => ("HilberHughesTaylor", 5.0 / 6.0, 4.0 / 9.0, -1.0 / 3.0),
-        };
+        let [gamma, beta, alpha] = self.constants();
         SapTable::new("CASE - DIRECT HISTORY 4 - INTEGRATION PARAMETERS").row(&[
             ("Case", &"QUAKE"),
-            ("IntMethod", &method),
+            ("IntMethod", &self.method()),
             ("Gamma", &digits(gamma)),
             ("Beta", &digits(beta)),
             ("Alpha", &digits(alpha)),

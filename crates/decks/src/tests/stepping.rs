@@ -82,6 +82,41 @@ fn sap2000_tables_have_the_load_case_of_the_program() {
 }
 
 #[test]
+fn the_sheet_to_type_from_has_the_model_of_the_tables() {
+    let parameters = for_program(ProgramName::Sap2000, 0.001);
+    let sheet = text(&parameters, DeckFormat::Sap2000Sheet, Stepping::Even);
+    let units = parameters.program.as_ref().unwrap().units;
+    let number = |line: &str, column: usize| -> f64 {
+        line.split_whitespace().nth(column).unwrap().parse().unwrap()
+    };
+    let near = |x: f64, y: f64| (x / y - 1.0).abs() < 1e-4;
+    for (name, unit, k, c) in [
+        ("FOOT", "U1", units.vertical.k1_n_per_m, 0.0),
+        ("FOOT", "U2", units.horizontal.k1_n_per_m, 0.0),
+        ("GROUND", "U1", units.vertical.k2_n_per_m, units.vertical.c_ns_per_m),
+        ("GROUND", "U2", units.horizontal.k2_n_per_m, units.horizontal.c_ns_per_m),
+    ] {
+        let of = |line: &&str| {
+            let mut words = line.split_whitespace();
+            words.next() == Some(name) && words.next() == Some(unit)
+        };
+        let line = sheet.lines().find(of).unwrap();
+        assert!(near(number(line, 2), 1e-3 * k), "{line}");
+        assert!(if c > 0.0 { near(number(line, 3), 1e-3 * c) } else { number(line, 3) == 0.0 });
+    }
+    // what it weighs, and the absorbers' masses across and upwards
+    let weight = sheet.lines().find(|line| line.contains("joint 3      ")).unwrap();
+    assert!(near(number(weight, 2), -500.0 * 9.81e-3), "{weight}");
+    let absorber = sheet.lines().find(|line| line.contains("(absorber)")).unwrap();
+    assert!(near(number(absorber, 3), 1e-3 * units.horizontal.m2_kg), "{absorber}");
+    assert!(near(number(absorber, 4), 1e-3 * units.vertical.m2_kg), "{absorber}");
+    assert!(
+        sheet.contains("800 steps of 0.01 s") && sheet.contains("constant stiffness 0, Newton")
+    );
+    assert!(sheet.contains("alpha -0.33333") && sheet.contains("smallest 6.25e-5 s"), "{sheet}");
+}
+
+#[test]
 fn what_has_no_springs_or_no_integrator_for_a_program_is_refused() {
     let record = Record::el_centro().truncated(1.0);
     let refused = |parameters: &Parameters, format, stepping| {

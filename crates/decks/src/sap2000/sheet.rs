@@ -1,0 +1,214 @@
+//! The model of the tables as a sheet to type from, for who would rather not import a file.
+
+use std::fmt::Write;
+
+use super::{FRICTION, KILO, SapModel, cases::CaseSettings, parts::SpringLinks};
+use files::message::significant;
+use rocking::scalar::GRAVITY;
+
+/// Width of a column.
+const COLUMN: usize = 13;
+
+/// The sheet.
+pub(crate) fn sheet(parts: &SapModel) -> String {
+    let mut text = format!("{}\nTo type into SAP2000 or ETABS. Units: kN, m, t, s.\n", parts.title);
+    for (number, part) in [
+        joints(parts),
+        frames(parts),
+        properties(parts),
+        links(parts),
+        weight(parts),
+        history(parts),
+        expected(parts),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        // writing to a String does not fail
+        let _ = write!(text, "\n{}. {part}", number + 1);
+    }
+    text
+}
+
+/// A line of columns.
+fn line(cells: &[String]) -> String {
+    let cells: String = cells.iter().map(|cell| format!("{cell:<COLUMN$}")).collect();
+    format!("   {}\n", cells.trim_end())
+}
+
+fn head(cells: &[&str]) -> String {
+    line(&cells.iter().map(ToString::to_string).collect::<Vec<_>>())
+}
+
+fn number(x: f64) -> String {
+    significant(x, 5)
+}
+
+fn joints(parts: &SapModel) -> String {
+    let mut text =
+        "Joints in the plane XZ (Analysis Options: UX, UZ, RY). A mass acts in X and Z as \
+                    given.\n"
+            .to_string();
+    text += &head(&["joint", "x", "z", "mass in X", "mass in Z", "inertia R2", "held"]);
+    let mut joint = |tag: usize, [x, z]: [f64; 2], masses: [f64; 3], held: &str| {
+        let masses = masses.map(|mass| match mass {
+            0.0 => "-".to_string(),
+            mass => number(mass * KILO),
+        });
+        let cells = [vec![tag.to_string(), number(x), number(z)], masses.into()].concat();
+        text += &line(&[cells, vec![held.into()]].concat());
+    };
+    for each in &parts.joints {
+        joint(each.tag, each.place, [each.mass, each.mass, each.inertia], "");
+    }
+    let below = |tag: usize, links: f64| {
+        let [x, z] = parts.place(tag);
+        [x, z - links * parts.link]
+    };
+    for foot in &parts.feet {
+        let springs = &parts.units[foot.unit].springs;
+        let masses = [springs.horizontal.m2, springs.vertical.m2, 0.0];
+        joint(foot.absorber, below(foot.joint, 1.0), masses, "U2 R1 R2 R3 (absorber)");
+    }
+    for foot in &parts.feet {
+        joint(foot.ground, below(foot.joint, 2.0), [0.0; 3], "all (ground)");
+    }
+    text + "   Mass source: added masses only.\n"
+}
+
+fn frames(parts: &SapModel) -> String {
+    let mut text =
+        "Frames, weightless: section General, material of E = 1 kN/m2 and Poisson's ratio \
+                    0, so that area and inertia are stiffnesses.\n"
+            .to_string();
+    text += &head(&["frame", "joints", "A = EA", "I33 = EI", "AS2 = 2 GAs", "VisStiff"]);
+    for (i, bar) in parts.bars.iter().enumerate() {
+        let section = &parts.sections[bar.section];
+        let or = |x: f64, no: &str| match x.is_finite() && x > 0.0 {
+            true => number(x),
+            false => no.into(),
+        };
+        let [from, to] = bar.joints;
+        text += &line(&[
+            (i + 1).to_string(),
+            format!("{from} - {to}"),
+            number(section.axial * KILO),
+            number(section.bending * KILO),
+            or(2.0 * section.shear * KILO, "0 (none)"),
+            or(section.ahead, "0"),
+        ]);
+    }
+    text
+}
+
+fn properties(parts: &SapModel) -> String {
+    let mut text =
+        "Link properties. Local 1 points up, local 2 along +X; shear distance DJ = 0 and \
+                    no mass for all. P-Delta moments to end I.\n"
+            .to_string();
+    text += &head(&["property", "direction", "stiffness", "damping", "type"]);
+    for SpringLinks { suffix, springs } in &parts.units {
+        let (v, h) = (&springs.vertical, &springs.horizontal);
+        let slider = format!("friction coefficients {FRICTION}, rate 0, radius 0; nonlinear");
+        for (name, direction, stiffness, damping, kind) in [
+            ("FOOT", "U1", v.k1, 0.0, "Friction Isolator: compression only, nonlinear"),
+            ("FOOT", "U2", h.k1, 0.0, slider.as_str()),
+            ("GROUND", "U1", v.k2, v.c, "Linear"),
+            ("GROUND", "U2", h.k2, h.c, "Linear"),
+        ] {
+            text += &line(&[
+                format!("{name}{suffix}"),
+                direction.into(),
+                number(stiffness * KILO),
+                number(damping * KILO),
+                kind.into(),
+            ]);
+        }
+    }
+    text
+}
+
+fn links(parts: &SapModel) -> String {
+    let mut text = "Links, from the lower joint I to the upper joint J.\n".to_string();
+    text += &head(&["link", "I - J", "property"]);
+    let unit = |unit: usize| &parts.units[unit].suffix;
+    let upper = parts.feet.iter().map(|f| (f.absorber, f.joint, format!("FOOT{}", unit(f.unit))));
+    let lower =
+        parts.feet.iter().map(|f| (f.ground, f.absorber, format!("GROUND{}", unit(f.unit))));
+    for (i, (from, to, property)) in upper.chain(lower).enumerate() {
+        text += &line(&[(i + 1).to_string(), format!("{from} - {to}"), property]);
+    }
+    text
+}
+
+fn weight(parts: &SapModel) -> String {
+    let mut text =
+        "Load pattern WEIGHT, self weight multiplier 0. Joint forces in Z:\n".to_string();
+    for joint in parts.joints.iter().filter(|joint| joint.mass > 0.0) {
+        let force = number(-joint.mass * GRAVITY * KILO);
+        text += &line(&[format!("joint {}", joint.tag), force]);
+    }
+    text + "   Load case GRAVITY: nonlinear static, WEIGHT, full load, P-Delta plus large \
+            displacements.\n"
+}
+
+fn history(parts: &SapModel) -> String {
+    let settings = CaseSettings::of(parts.even);
+    let steps = parts.samples.saturating_sub(1);
+    let dt = parts.record.dt;
+    let short = |digits: &str| digits.parse().map_or_else(|_| digits.to_string(), number);
+    let [gamma, beta, alpha] = settings.constants().map(number);
+    let mut text = "Load case QUAKE: nonlinear direct integration history that continues from \
+                    GRAVITY.\n"
+        .to_string();
+    for (what, value) in [
+        ("geometry", "P-Delta plus large displacements".to_string()),
+        (
+            "load",
+            "acceleration U1, scale 1, function of the record in m/s2 (from its file, or the \
+             table of the .s2k)"
+                .into(),
+        ),
+        ("output", format!("{steps} steps of {} s", number(dt))),
+        ("damping", "proportional damping 0: mass and stiffness coefficient".into()),
+        (
+            "integration",
+            format!("{}, gamma {gamma}, beta {beta}, alpha {alpha}", settings.method()),
+        ),
+        (
+            "substeps",
+            format!(
+                "largest {} s, smallest {} s",
+                short(&settings.longest),
+                short(&settings.shortest)
+            ),
+        ),
+        (
+            "iterations",
+            format!(
+                "constant stiffness {}, Newton-Raphson {}; relative tolerance {}; no line search, \
+                 no event stepping",
+                settings.constant,
+                settings.newton,
+                short(&settings.tolerance)
+            ),
+        ),
+    ] {
+        text += &format!("   {what:<COLUMN$}{value}\n");
+    }
+    text
+}
+
+fn expected(parts: &SapModel) -> String {
+    let [u, v] = parts.peaks;
+    let mm = |x: f64| format!("{} mm", significant(1e3 * x, 4));
+    format!(
+        "To compare, joint {}, within 1 %: after GRAVITY U3 = {}; in QUAKE U1 from {} to {}, U3 \
+         at most {} above that.\n",
+        parts.watched,
+        mm(parts.settled),
+        mm(u.1),
+        mm(u.0),
+        mm(v.0)
+    )
+}
