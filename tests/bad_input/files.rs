@@ -164,7 +164,7 @@ fn parameters_with_a_spring_of_no_stiffness() {
 fn a_deck_for_an_unknown_program() {
     export(
         &["--format", "nastran", "--out", "deck"],
-        &["nastran", "openseespy, opensees-tcl, sap2000, csv, markdown"],
+        &["nastran", "openseespy, opensees-tcl, sap2000, sap2000-sheet, csv, markdown"],
     );
 }
 

@@ -65,7 +65,10 @@ fn a_sweep_that_asks_for_nothing_or_twice_is_refused_with_its_line() {
 #[test]
 fn pulses_that_are_none_are_refused_with_their_line() {
     let with = |pulse: &str| format!("{HEAD}{BLOCK}[[pulse]]\n{pulse}{LEVELS}");
-    sweep(&with("shape = \"square\"\nomega_over_p = 2.0\n"), &["line 9", "unknown variant"]);
+    sweep(
+        &with("shape = \"square\"\nomega_over_p = 2.0\n"),
+        &["line 9", "shape is \"square\"; known are"],
+    );
     sweep(&with("shape = \"sine\"\n"), &["line 9", "omega_over_p or frequency_hz"]);
     sweep(&with("shape = \"sine\"\nomega_over_p = 0.0\n"), &["line 10", "omega_over_p has 0.0"]);
     sweep(

@@ -33,6 +33,7 @@ mod elastic;
 mod error;
 mod limits;
 mod missing;
+mod plain_words;
 pub mod program;
 mod record;
 mod structure;

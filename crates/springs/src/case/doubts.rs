@@ -27,6 +27,10 @@ pub enum Doubt {
     Tonnes { mass: f64, kg_per_m3: f64 },
     /// A column several times as heavy as the mass that it bears.
     HeavyColumn { column_kg: f64, mass_kg: f64 },
+    /// A mass that is nothing beside the structure's, and so may be in tonnes.
+    LightPart { key: &'static str, mass_kg: f64, all_kg: f64 },
+    /// A peak ground acceleration beyond all that was recorded.
+    StrongMotion { pga_g: f64, scale: f64 },
     /// Peak ground acceleration of the part used, and of the whole record, scaled.
     WeakMotion { pga_g: f64, least_g: f64, whole_g: f64 },
     /// A vertical component of the record's file is left out that is not small: peaks of the whole
@@ -53,6 +57,10 @@ const ROOM_M: f64 = 2.5;
 const HEAVY_COLUMN: f64 = 3.0;
 /// Weaker ground motions are not felt (g).
 const LEAST_PGA_G: f64 = 0.005;
+/// Stronger ones were not recorded on the ground (g): horizontally 2.7 g, in Tsukidate in 2011.
+const MOST_PGA_G: f64 = 3.0;
+/// A part of a structure's mass that is nothing beside it: a number in tonnes is a thousandth.
+const NOTHING: f64 = 2e-3;
 /// A vertical component above this share of the horizontal one's peak is not left out without a
 /// word.
 const VERTICAL_SHARE: f64 = 0.5;
@@ -101,7 +109,31 @@ impl ElasticCase {
             }
             ElasticStructure::AFrame(_) => None,
         };
-        density(self.structure.mass(), box_m).into_iter().chain(column).collect()
+        let all = density(self.structure.mass(), box_m).into_iter().chain(column);
+        all.chain(self.light_part()).collect()
+    }
+
+    /// The first mass that is nothing beside the structure's.
+    fn light_part(&self) -> Option<Doubt> {
+        let parts = match &self.structure {
+            ElasticStructure::Pier(pier) => vec![
+                ("mass_kg", pier.mass_kg),
+                ("footing_mass_kg", pier.footing_mass_kg),
+                ("column_mass_kg", pier.column_mass_kg),
+            ],
+            ElasticStructure::AFrame(frame) => {
+                vec![("mass_kg", frame.mass_kg), ("foot_mass_kg", frame.foot_mass_kg)]
+            }
+            ElasticStructure::Frame(frame) => vec![
+                ("beam_mass_kg", frame.beam_mass_kg),
+                ("footing_mass_kg", frame.footing_mass_kg),
+                ("column_mass_kg", frame.column_mass_kg),
+            ],
+        };
+        let all_kg = self.structure.mass();
+        let light = |(_, mass): &(&str, f64)| *mass > 0.0 && *mass < NOTHING * all_kg;
+        let (key, mass_kg) = parts.into_iter().find(light)?;
+        Some(Doubt::LightPart { key, mass_kg, all_kg })
     }
 }
 
@@ -149,6 +181,8 @@ pub(crate) fn of_excitation(excitation: &Excitation) -> Vec<Doubt> {
     let whole_g = excitation.scale.abs() * record.pga_g();
     let weak =
         (pga_g < LEAST_PGA_G).then_some(Doubt::WeakMotion { pga_g, least_g: LEAST_PGA_G, whole_g });
+    let strong =
+        (pga_g > MOST_PGA_G).then_some(Doubt::StrongMotion { pga_g, scale: excitation.scale });
     let record_s = record.duration();
     // half a step: a length that was rounded is none that is longer
     let long = excitation.duration_s.filter(|asked| *asked > record_s + 0.5 * record.dt);
@@ -165,7 +199,7 @@ pub(crate) fn of_excitation(excitation: &Excitation) -> Vec<Doubt> {
         _ => None,
     };
     let only = only.map(|component| Doubt::VerticalTaken { component });
-    only.into_iter().chain(weak).chain(long).chain(vertical).collect()
+    only.into_iter().chain(weak).chain(strong).chain(long).chain(vertical).collect()
 }
 
 impl Doubt {
@@ -210,6 +244,22 @@ impl Doubt {
                 figures(*peak_g),
                 figures(*horizontal_g)
             ),
+            Self::LightPart { key, mass_kg, all_kg } => format!(
+                "{key} = {} is next to nothing in a structure of {} kg",
+                figures(*mass_kg),
+                figures(*all_kg)
+            ),
+            Self::StrongMotion { pga_g, scale } => {
+                let scaled = match *scale == 1.0 {
+                    true => String::new(),
+                    false => format!(" at scale {}", figures(*scale)),
+                };
+                format!(
+                    "a peak of {} g{scaled} is more than was ever recorded on the ground ({} g)",
+                    figures(*pga_g),
+                    figures(MOST_PGA_G)
+                )
+            }
             Self::HeavyColumn { column_kg, mass_kg } => {
                 format!(
                     "columns of {} kg stand under {} kg",
@@ -251,6 +301,10 @@ impl Doubt {
                 "take it with --vertical auto (vertical = \"auto\" in [record]) and compare"
                     .to_owned()
             }
+            Self::LightPart { key, mass_kg, .. } => {
+                format!("if it is {0} t, write {key} = {0}e3", figures(*mass_kg))
+            }
+            Self::StrongMotion { .. } => "check the unit of the record and its scale".to_owned(),
             Self::HeavyColumn { .. } => "check the masses (kg) and their units".to_owned(),
             Self::VerticalTaken { .. } => {
                 "choose a horizontal one (--component), or a file that has one".to_owned()

@@ -4,7 +4,11 @@ use std::path::Path;
 
 use thiserror::Error;
 
-use super::{missing, unknown_key::UnknownKey};
+use super::{
+    missing,
+    plain_words::{in_plain_words, unreadable},
+    unknown_key::UnknownKey,
+};
 use files::message::one_line;
 use rocking::{
     members::{MembersError, NO_LEGS, names_legs},
@@ -143,6 +147,15 @@ pub fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> CaseError
         .iter()
         .fold(message, |message, short| message.replace(short, kinds));
     // of the whole message: all known keys, the nearest one among them
+    let given = text.lines().nth(line - 1).unwrap_or_default();
+    let plain = match unknown {
+        Some(_) => None,
+        None if text.parse::<toml::Table>().is_err() => unreadable(&message, given),
+        None => in_plain_words(&message, given),
+    };
+    if let Some(message) = plain {
+        return CaseError::Parse { path: path.into(), line, message };
+    }
     let message = match unknown {
         Some(unknown) => {
             format!("unknown key \"{}\"; {}", one_line(&unknown.key), unknown.advice())

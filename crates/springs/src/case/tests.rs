@@ -109,6 +109,6 @@ fn bad_values_are_named() {
     assert!(message("[record]\nduration_s = nan\n").contains("record.duration_s is NaN"));
     assert!(
         message("[tuning]\nmax_omega_hz = \"stiff\"\n")
-            .starts_with("case.toml, line 7: invalid type")
+            .starts_with("case.toml, line 7: max_omega_hz is \"stiff\"; write a number")
     );
 }
