@@ -102,7 +102,7 @@ fn of(parameters: &dyn Debug, record: &Record, accuracy: f64) -> String {
 /// Peaks first, then histories, then how often it swung, for a terminal.
 fn said(record: &Record, result: &Verification) -> String {
     let last = (result.ours.len() - 1) as f64 * result.dt;
-    let peaks = peaks_table(&format!("{}, {last:.2} s", record.name), &result.peaks);
+    let peaks = peaks_table(&title(record, last), &result.peaks);
     let mut errors = Table::new();
     errors.load_style(presets::ASCII_MARKDOWN).set_header([
         "error of the history (NRMSE)",
@@ -130,6 +130,21 @@ fn said(record: &Record, result: &Verification) -> String {
     let _ = writeln!(out, "OpenSees took {:.1} s and {} steps", result.seconds, result.steps);
     out + &judged(result)
 }
+
+/// What is compared, and over how much of the record.
+fn title(record: &Record, seconds: f64) -> String {
+    let all = record.duration();
+    let last = (seconds * 1e6).round() / 1e6;
+    if last + 0.5 * record.dt < all {
+        format!("{}, first {last:.2} s of {all:.2} s", record.name)
+    } else {
+        format!("{}, all {all:.2} s", record.name)
+    }
+}
+
+/// What a verification says nothing of.
+const FORCES: &str =
+    "displacements are judged; forces are checked by tune run, on other springs and meshes\n";
 
 /// Peaks of our own history, of OpenSees', and the difference.
 fn peaks_table(title: &str, peaks: &[ComparedPeak]) -> Table {
@@ -179,7 +194,7 @@ fn judged(result: &Verification) -> String {
             result.late
         );
     }
-    out
+    out + FORCES
 }
 
 /// Why OpenSees is off: its steps, or the springs.

@@ -2,7 +2,7 @@
 
 use std::{fmt::Write as _, path::Path};
 
-use super::{VerifyOptions, peaks_table};
+use super::{FORCES, VerifyOptions, peaks_table, title};
 use crate::commands::{CommandError, export::check_accuracy, progress::Progress, terminal};
 use decks::verify::{ComparedPeak, DeckRun, Program, VerifyError, number_before, run_deck};
 use figures::stack::{self, StackFigure, StackQuantity};
@@ -20,6 +20,7 @@ use run_folder::{
     tables::csv_row,
 };
 use springs::{parameters::elastic::ElasticParameters, predictability::standing_share};
+use strong_motion::Record;
 
 /// Largest NRMSE of rotation between OpenSees and our own history, while a change of the motion
 /// grows less than 30-fold: OpenSees' steps miss more than ours; of drift, five times that.
@@ -85,7 +86,7 @@ pub fn run(
     draw(folder.path(), &assembled, &pairs, record.dt)?;
     folder.finish()?;
 
-    let said = said(&record.name, &part, &peaks, &ran, [rotation, drift]);
+    let said = said(&record, &part, &peaks, &ran, [rotation, drift]);
     terminal::stdout(format_args!("{said}"))?;
     terminal::stderr(format_args!("{}\nwritten to {}", excitation.line(), terminal::shown(&o.out)));
     if within([rotation, drift]) {
@@ -105,13 +106,13 @@ fn within([rotation, drift]: [f64; 2]) -> bool {
 
 /// Peaks first, then errors, for a terminal.
 fn said<T>(
-    record: &str,
+    record: &Record,
     part: &Compared,
     peaks: &[ComparedPeak],
     ran: &DeckRun<T>,
     [rotation, drift]: [f64; 2],
 ) -> String {
-    let title = format!("{}, {:.2} s", record, part.seconds);
+    let title = title(record, part.seconds);
     let mut said = format!(
         "{}\n\nOpenSees took {:.1} s and {} steps\n",
         peaks_table(&title, peaks),
@@ -143,7 +144,7 @@ fn said<T>(
             "WARNING: {late} touches or lifts of a corner within too long a step of OpenSees"
         );
     }
-    said
+    said + FORCES
 }
 
 /// Displacement of the top, uplift of a corner, rotation and drift; of several bases the largest.
