@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -136,6 +137,7 @@ def converged(
     quantities: Mapping[str, Callable[[], float]],
     forces: Mapping[str, Callable[[], float]],
     after: Callable[[], object] | None,
+    progress: bool,
     **options: Any,
 ) -> Convergence:
     """See `Stepper.converged`."""
@@ -151,7 +153,7 @@ def converged(
         TWIN_NAME: (1.0, 1.0, 1.0, 1.0 + TWIN),
     }
     rows, histories = [], []
-    for name, (finer, shorter, stiffer, stronger) in runs.items():
+    for i, (name, (finer, shorter, stiffer, stronger)) in enumerate(runs.items(), 1):
         once = _again(stepper, build, finer, shorter * longest, stiffer)
         if after is not None:
             after()
@@ -165,6 +167,8 @@ def converged(
         scale = stronger * options.get("scale", 1.0)
         history = once.run(record, **(options | {"scale": scale}))
         histories.append(history)
+        if progress:
+            print(f"converged: run {i} of {len(runs)}, {name}: {once.steps.taken} steps", file=sys.stderr)
         feet = (float(np.abs(history.largest_vertical).max()), float(np.abs(history.largest_horizontal).max()))
         rows.append(Refined(name, once.steps.taken, (float(history.uplift.max()), *largest, *feet)))
     return Convergence(["uplift", *quantities], rows, [*forces, *FEET], histories[0])

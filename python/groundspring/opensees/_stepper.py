@@ -188,6 +188,7 @@ class Stepper(Staging):
         scale: float = 1.0,
         duration: float | None = None,
         vertical: Record | None = None,
+        progress: bool = False,
     ) -> Convergence:
         """Run the record again with accuracy and longest step halved, and the springs two and four times as stiff, in
         turn; what that changes.
@@ -200,6 +201,7 @@ class Stepper(Staging):
                     5 % is the structure's own, any other that of springs and steps. The feet's are looked at unasked
         after       called after gravity: what comes into the model unstressed
         scale, duration, vertical   as for `run`
+        progress    a line on stderr for every run, with its steps
 
         Feet, gravity and options are those of this stepper. A last run, whose ground shakes by a millionth more, says
         how much of a change is the motion's own sensitivity. Six runs in all; the model is left as the last one left
@@ -218,7 +220,7 @@ class Stepper(Staging):
             if names.count(name) > 1:
                 raise ValueError(f"converged: the name {name!r} is there already; give another one")
         options = {"scale": scale, "duration": duration, "vertical": vertical}
-        found = converged(self, record, build, wanted, loads, after, **options)
+        found = converged(self, record, build, wanted, loads, after, progress, **options)
         if self._ran == (record, scale, duration, vertical):
             ours, theirs = self.history.uplift, found.history.uplift
             # another `build` or `after` would be another history
