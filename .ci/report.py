@@ -11,11 +11,11 @@ from playwright.sync_api import Page, sync_playwright
 
 # folder, figures, those over time, what the page says
 PAGES = [
-    ("frame", 6, 3, "The structure rocks and stands"),
+    ("frame", 6, 3, "It rocks and stands"),
     ("overturns", 4, 3, "The structure overturns at t = 4.4"),
     ("stands", 4, 3, "The record does not lift the structure"),
     ("kaikoura", 4, 3, "leaves the ground"),
-    ("without_figures", 0, 0, "The structure rocks and stands"),
+    ("without_figures", 0, 0, "It rocks and stands"),
     ("without_record", 0, 0, "without a record"),
 ]
 LARGEST = 2_000_000

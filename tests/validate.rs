@@ -318,10 +318,7 @@ fn simulate_tells_conditioning_and_regime_on_stderr() {
     let used = "record IELC180 (embedded), scale 1, first 6 s of 39.94 s: 601 samples of 0.01 s, \
         PGA 0.3129 g at 2.";
     assert!(stderr.contains(used), "{stderr}");
-    assert!(
-        stderr.contains("the structure rocks and stands: its largest rotation is "),
-        "{stderr}"
-    );
+    assert!(stderr.contains("it rocks and stands: largest rotation "), "{stderr}");
     let stderr = said("0.05");
     assert!(stderr.contains("the feet would slide: friction of 0."), "{stderr}");
 }

@@ -159,8 +159,8 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
         return ended(&effort, &o.out);
     }
     let run = RigidRun::new(case, job, front, friction);
-    saved(save(&run, &o.out, Output { figures: !o.no_figures, report: !o.no_report })?);
-    o.print(&run.said(filed(&run, &o.out)))?;
+    let left_out = save(&run, &o.out, Output { figures: !o.no_figures, report: !o.no_report })?;
+    o.print(&run.said(filed(&run, &o.out)), &left_out)?;
     ended(&effort, &o.out)
 }
 
@@ -196,11 +196,6 @@ fn within(
     given.map(|value| limits.check(value).map_err(refuse)).transpose()
 }
 
-/// Decks that were left out are said: the others are of use.
-fn saved(left_out: Vec<String>) {
-    left_out.into_iter().for_each(terminal::stderr);
-}
-
 /// What there is without a record.
 fn springs_alone(o: &RunOptions, run: &Run) -> Result<(), CommandError> {
     let files = files();
@@ -217,18 +212,21 @@ fn springs_alone(o: &RunOptions, run: &Run) -> Result<(), CommandError> {
     terminal::stderr(
         "no record: tune simulate, verify and export take El Centro unless you give them one",
     );
-    o.print(run)
+    o.print(run, &[])
 }
 
 impl RunOptions {
-    /// The screen, or the run as JSON; `--verbose` adds all that the report has.
-    fn print(&self, run: &Run) -> Result<(), CommandError> {
+    /// The screen, or the run as JSON; `--verbose` adds all that the report has. Decks that were
+    /// left out are told on it, or on stderr.
+    fn print(&self, run: &Run, left_out: &[String]) -> Result<(), CommandError> {
         if self.json {
+            left_out.iter().for_each(terminal::stderr);
             return terminal::json(run);
         }
         let folder = terminal::shown(&self.out);
         let decks = run.taken.record.is_some();
-        let screen = screen(run, &Written { folder: &folder, report: !self.no_report, decks });
+        let report = !self.no_report;
+        let screen = screen(run, &Written { folder: &folder, report, decks, left_out });
         let more = if self.verbose { format!("\n{}", markdown(run)) } else { String::new() };
         terminal::stdout(format_args!("{screen}{more}"))
     }

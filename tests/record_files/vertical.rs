@@ -115,8 +115,8 @@ fn a_run_shows_its_part_and_remembers_it() {
         assert_eq!(code, 0, "{err}");
         assert!(out.contains("; vertical "), "{out}");
         assert!(
-            err.contains("model_sap2000.s2k is left out: export: vertical ground motion"),
-            "{err}"
+            out.contains("model_sap2000.s2k is left out, it has no vertical ground motion. Take"),
+            "{out}"
         );
         let parameters: Value =
             serde_json::from_slice(&fs::read(dir.path().join("out/parameters.json")).unwrap())

@@ -13,6 +13,9 @@ use springs::{
     validate::PeakErrors,
 };
 
+/// What the record of the run is called.
+pub(crate) const THIS_RECORD: &str = "this record";
+
 /// An error measured on a record or on a set of motions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AccuracyOn {
@@ -77,7 +80,7 @@ impl AccuracyReport {
         };
         let record = history
             .record
-            .map(|_| row("this record".into(), 1, &|a| a.record, 1.0, worst(|p| p.record)));
+            .map(|_| row(THIS_RECORD.into(), 1, &|a| a.record, 1.0, worst(|p| p.record)));
         let words = |n| format!("{n} synthetic motions (median)");
         let median = statistics(|a| a.synthetic_median, words, 1.0, worst(|p| p.synthetic_median));
         let p90 = statistics(|a| a.synthetic_p90, |_| "90 % of these".into(), LOOSER, None);
@@ -108,8 +111,9 @@ impl AccuracyReport {
         }
     }
 
-    /// The same for a screen: on the first so many of the record and the sets of motions.
-    pub fn short(&self, sets: usize) -> String {
+    /// The same for a screen: on the first so many of the record and the sets of motions; that this
+    /// record, if there is one, says nothing of springs.
+    pub fn short(&self, sets: usize, of_record: bool) -> String {
         let on = |(i, row): (usize, &AccuracyOn)| {
             let [peaks, nrmse] = if i == 0 { ["peaks within ", "NRMSE "] } else { [""; 2] };
             let peaks = row.peaks.map(|error| format!("{peaks}{}", within(error, row.worst)));
@@ -120,9 +124,17 @@ impl AccuracyReport {
         let measured: Vec<String> = self.measured().take(sets).enumerate().map(on).collect();
         match (measured.is_empty(), self.reached) {
             (true, _) => self.sentence(),
+            (false, true) if of_record && !self.on_record() => {
+                format!("on {}; as asked; this record cannot be compared", measured.join("; "))
+            }
             (false, true) => format!("{}; as asked", measured.join("; ")),
             (false, false) => format!("{}; NOT as asked ({})", measured.join("; "), self.asked()),
         }
+    }
+
+    /// Whether something was measured on the record itself.
+    fn on_record(&self) -> bool {
+        self.measured().any(|row| row.on.starts_with(THIS_RECORD))
     }
 
     /// On what anything was measured.
@@ -197,7 +209,7 @@ mod tests {
                 0.002, reached"
         );
         assert_eq!(
-            report.short(2),
+            report.short(2, true),
             "this record: peaks within 0.013 % (uplift), NRMSE 2.2e-5; as asked"
         );
         assert_eq!(report.table().rows[0][2], "0.013 %");

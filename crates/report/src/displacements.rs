@@ -58,6 +58,8 @@ pub fn peak_table(run: &Run) -> Option<Table> {
         // a rigid body's are those of some strength
         let counted = if name == "impacts" && pair.reference.bending_m.is_none() {
             " (above 0.02 alpha)"
+        } else if name == "impacts" {
+            " (0.1/p apart)"
         } else {
             ""
         };

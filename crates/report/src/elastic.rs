@@ -247,8 +247,10 @@ impl ElasticParts<'_> {
             },
             _ => Finding::Stands {
                 share_of_overturning: on.peak_ratio_fem,
+                reference_share: Some(on.peak_ratio_reference),
                 over_s: on.compared_s,
                 if_feet_hold: false,
+                of_columns: matches!(self.assembled.structure, ElasticStructure::Frame(_)),
             },
         });
         if fell(fem).is_some() != reference_fell.is_some() {
@@ -284,6 +286,7 @@ impl ElasticParts<'_> {
         let first = self.answer.histories.reference.history.events.iter().find(lift);
         run.taken.facts.extend(first.map(|event| super::first_lift(event.time)));
         run.taken.record = Some(self.case.excitation.line());
+        run.taken.short_record = Some(self.case.excitation.short_line());
         run.taken.assumed = Assumed::all(&self.case.assumptions());
         run.friction_needed = Some(self.friction_needed().value);
         run.sap2000 =

@@ -108,8 +108,18 @@ pub struct Taken {
     pub facts: Vec<(String, String)>,
     /// The record, its scale, length, step and peak; none of springs without a record.
     pub record: Option<String>,
+    /// The same in a shorter line, for a screen.
+    #[serde(skip)]
+    pub(crate) short_record: Option<String>,
     /// What was not given.
     pub assumed: Vec<Assumed>,
+}
+
+impl Taken {
+    /// A structure without a record.
+    pub fn new(structure: String, facts: Vec<(String, String)>) -> Self {
+        Self { structure, facts, record: None, short_record: None, assumed: Vec::new() }
+    }
 }
 
 /// A spring-absorber unit.
@@ -233,34 +243,57 @@ impl Run {
         let Some(told) = graver.or(answer) else {
             return "Springs without a record: nothing rocked.".into();
         };
-        let foretold = match self.foretold() {
-            Some(true) => "; it can be foretold",
-            Some(false) => "; no model foretells it",
-            None => "",
-        };
-        sentence(&format!("{}{}{foretold}", told.message, self.not_computed()))
+        sentence(&format!(
+            "{}{}{}{}",
+            told.message,
+            self.not_computed(),
+            self.feet_apart(),
+            self.foretold()
+        ))
     }
 
-    /// Whether all of a motion can be foretold; none where a finding tells up to when, or where
-    /// nothing rocks or stands.
-    fn foretold(&self) -> Option<bool> {
+    /// Where the feet end, if not where they began.
+    fn feet_apart(&self) -> String {
+        let apart = self.findings.iter().find_map(|filed| match filed.finding {
+            Finding::FeetApart { apart_m } => Some(apart_m),
+            _ => None,
+        });
+        apart.map_or(String::new(), |apart| {
+            let way = if apart > 0.0 { "further apart" } else { "closer together" };
+            format!("; its feet end {} {way}", files::message::quantity(apart.abs(), "m"))
+        })
+    }
+
+    /// Whether, and up to when, a motion can be foretold; nothing where nothing rocks or stands.
+    fn foretold(&self) -> String {
         let any = |of: fn(&Finding) -> bool| self.findings.iter().any(|filed| of(&filed.finding));
         if any(|f| matches!(f, Finding::IllConditioned { .. })) {
-            return Some(false);
+            return "; no model foretells it".into();
+        }
+        let until = self.findings.iter().find_map(|filed| match filed.finding {
+            Finding::ForetoldUpTo { time_s, .. } | Finding::SlidesOn { time_s, .. } => Some(time_s),
+            Finding::DeckJudged { judged_s, end: DeckEnd::Foretold | DeckEnd::Slides, .. } => {
+                Some(judged_s)
+            }
+            _ => None,
+        });
+        if let Some(until) = until {
+            return format!("; foretold to {} s", files::message::significant(until, 4));
         }
         let in_part = any(|f| match f {
             Finding::DeckJudged { end, .. } => *end != DeckEnd::Record,
             _ => matches!(
                 f,
-                Finding::ForetoldUpTo { .. }
-                    | Finding::SlidesOn { .. }
-                    | Finding::ModelsDisagree { .. }
+                Finding::ModelsDisagree { .. }
                     | Finding::PivotLeavesGround { .. }
                     | Finding::HistoryEndsEarly { .. }
                     | Finding::NoAnswer { .. }
             ),
         });
-        (any(|f| matches!(f, Finding::Stands { .. })) && !in_part).then_some(true)
+        match any(|f| matches!(f, Finding::Stands { .. })) && !in_part {
+            true => "; it can be foretold".into(),
+            false => String::new(),
+        }
     }
 
     /// What of the answer is missing, because a history ended before its record.

@@ -127,8 +127,10 @@ pub(crate) fn verdict(structure: &Structure, record: &Record, verdict: &Verdict)
         }
         _ => Finding::Stands {
             share_of_overturning: finite_elements.peak_ratio,
+            reference_share: (housner.fate == Fate::Rocked).then_some(housner.peak_ratio),
             over_s: verdict.compared_s,
             if_feet_hold: false,
+            of_columns: false,
         },
     }];
     all.extend(verdict.housner_without_vertical.map(|level| Finding::WithoutVertical {

@@ -107,6 +107,7 @@ impl RigidRun {
             taken: Taken {
                 facts,
                 record: Some(self.case.excitation.line()),
+                short_record: Some(self.case.excitation.short_line()),
                 assumed: self.assumed(),
                 ..taken(&self.case.structure, self.case.restitution)
             },
@@ -145,6 +146,7 @@ impl RigidRun {
         all.extend(springs_findings(parameters));
         all.extend(program::findings(&self.case, parameters));
         all.extend(parameters.design_forces.iter().flat_map(|forces| forces.withheld()));
+        all.extend(parameters.design_forces.iter().filter_map(|forces| forces.at_rest()));
         all.extend(self.report.findings());
         all.extend(reference::histories(&self.both));
         all.extend(self.both.with.as_ref().map(|_| Finding::MembersBeside));
@@ -269,7 +271,7 @@ fn taken(structure: &Structure, restitution: f64) -> Taken {
         ("lifts at g tan alpha", format!("{} g", significant(body.alpha().tan(), 4))),
     ];
     let facts = facts.into_iter().map(|(name, value)| (name.to_string(), value)).collect();
-    Taken { structure: text, facts, record: None, assumed: Vec::new() }
+    Taken::new(text, facts)
 }
 
 /// Largest displacements of both models, up to an overturning; `dt` is that of the record (s).

@@ -1,17 +1,19 @@
 //! What `tune run` prints: one screen, the answer first.
+//!
+//! `lines` breaks text, `forces` has the design forces, `warnings` what room is left for.
 
+mod forces;
+mod lines;
 mod warnings;
 
-use super::{FiledParameters, Run, Table, Unit, force_value, height, peak_table};
-use files::message::{percent, shortened, significant};
-use springs::results::{DesignForce, DesignForces, ForceName};
+use super::{Run, Table, Unit, peak_table};
+use files::message::{shortened, significant};
+use lines::{at_most, wrap};
 use warnings::{tell, warning_lines, warnings};
 
 /// Lines of a screen, and letters of a line.
 pub(crate) const LINES: usize = 30;
 pub(crate) const WIDTH: usize = 98;
-/// Further lines of the design forces begin here.
-const FORCES_INDENT: usize = 15;
 
 /// What the answer may take where warnings need room.
 #[derive(Clone, Copy)]
@@ -20,17 +22,41 @@ struct Crowding {
     empty_line: bool,
     /// Lines of what was assumed.
     assumed: usize,
-    /// Lines of the design forces.
-    forces: usize,
-    /// Sets of motions that the accuracy is told on.
+    /// Lines of the accuracy, and sets of motions that it is told on.
+    accuracy: usize,
     measured: usize,
+    /// Lines of the verdict, and of the program with fixed time steps.
+    program: usize,
+    /// Whether the deck's own command stands beside that which checks it.
+    both_commands: bool,
 }
 
 /// The first in which every warning has its room is taken, else the last.
 const CROWDING: [Crowding; 3] = [
-    Crowding { empty_line: true, assumed: 2, forces: 3, measured: 2 },
-    Crowding { empty_line: false, assumed: 2, forces: 3, measured: 2 },
-    Crowding { empty_line: false, assumed: 1, forces: 2, measured: 1 },
+    Crowding {
+        empty_line: true,
+        assumed: 2,
+        accuracy: 2,
+        measured: 2,
+        program: 3,
+        both_commands: true,
+    },
+    Crowding {
+        empty_line: false,
+        assumed: 2,
+        accuracy: 2,
+        measured: 2,
+        program: 3,
+        both_commands: true,
+    },
+    Crowding {
+        empty_line: false,
+        assumed: 1,
+        accuracy: 1,
+        measured: 1,
+        program: 2,
+        both_commands: false,
+    },
 ];
 
 /// What is said where no springs suit steps of one size.
@@ -38,8 +64,12 @@ pub(crate) const NO_PROGRAM: &str = "not these springs: programs with steps of o
     others; there are none for this structure";
 /// The deck of OpenSees with steps of one size.
 pub const EVEN_DECK: &str = "model_even.py";
-/// Letters of a file's name in the line of the record.
-const LONGEST_NAME: usize = 48;
+/// The model for SAP2000 and ETABS as a sheet to type from.
+pub const SHEET: &str = "sap2000_by_hand.txt";
+/// Letters of a path in a command.
+const LONGEST_PATH: usize = 58;
+/// What the report's line begins with.
+const REPORT: &str = "report    ";
 
 /// Where results are, for the commands that the screen ends with.
 pub struct Written<'a> {
@@ -49,13 +79,23 @@ pub struct Written<'a> {
     pub report: bool,
     /// Whether decks were.
     pub decks: bool,
+    /// Of decks that were left out or end early: why, and what to do.
+    pub left_out: &'a [String],
+}
+
+impl Written<'_> {
+    /// A file of the folder, as it can be typed if it is not too long.
+    fn file(&self, name: &str) -> String {
+        shortened(&format!("{}/{name}", self.folder.trim_end_matches('/')), LONGEST_PATH)
+    }
 }
 
 /// The screen: at most `LINES` lines of at most `WIDTH` letters.
 pub fn screen(run: &Run, written: &Written) -> String {
-    let warnings = warnings(run);
+    let warnings = warnings(run, written.left_out);
     let answers = CROWDING.map(|crowding| answer(run, written, crowding));
-    let room = |lines: &Vec<String>| LINES.saturating_sub(lines.len());
+    // the last line is the report's
+    let room = |lines: &Vec<String>| (LINES - 1).saturating_sub(lines.len());
     let wanted: usize = warnings.iter().map(warning_lines).sum();
     let [spacious, close, closest] = answers;
     let mut lines = if room(&spacious) >= wanted {
@@ -65,8 +105,15 @@ pub fn screen(run: &Run, written: &Written) -> String {
     } else {
         closest
     };
-    let place = if written.report { "report.html" } else { "parameters.json" };
-    tell(&warnings, place, &mut lines);
+    let name = if written.report { "report.html" } else { "parameters.json" };
+    tell(&warnings, &written.file(name), &mut lines);
+    if written.report {
+        // where warnings are left out, their last line names the report
+        let named = lines.last().is_some_and(|last| last.starts_with(REPORT));
+        if !named {
+            wrap(&mut lines, REPORT, &written.file(name));
+        }
+    }
     lines.join("\n") + "\n"
 }
 
@@ -77,72 +124,29 @@ fn answer(run: &Run, written: &Written, crowding: Crowding) -> Vec<String> {
     if crowding.empty_line {
         lines.push(String::new());
     }
-    wrap(&mut lines, "", &run.verdict());
+    at_most(crowding.program, &mut lines, "", &run.verdict());
     lines.extend(peak_table(run).iter().flat_map(Table::lines));
-    forces(run, crowding.forces, &mut lines);
+    lines.extend(forces::lines(run));
     springs(run, &mut lines);
     if let Some(accuracy) = &run.accuracy {
-        at_most(2, &mut lines, "accuracy  ", &accuracy.short(crowding.measured));
+        let told = accuracy.short(crowding.measured, run.taken.record.is_some());
+        at_most(crowding.accuracy, &mut lines, "accuracy  ", &told);
     }
-    next(run, written, &mut lines);
+    next(run, written, crowding, &mut lines);
     lines
-}
-
-/// The same as [`wrap`], in so many lines: what does not fit is left out.
-fn at_most(most: usize, lines: &mut Vec<String>, name: &str, text: &str) {
-    let mut all = Vec::new();
-    wrap(&mut all, name, text);
-    if all.len() > most {
-        all.truncate(most);
-        if let Some(last) = all.last_mut() {
-            // whole words
-            while last.chars().count() > WIDTH - 4 {
-                let Some(space) = last.trim_end().rfind(' ') else { break };
-                last.truncate(space);
-            }
-            *last = format!("{} ...", last.trim_end_matches([' ', ',', ';', ':']));
-        }
-    }
-    lines.extend(all);
-}
-
-/// Text behind a name, its further lines below the text; words that do not fit a line are shortened
-/// in the middle.
-fn wrap(lines: &mut Vec<String>, name: &str, text: &str) {
-    wrap_at(lines, name, name.chars().count(), text);
-}
-
-/// The same; further lines begin after so many letters.
-fn wrap_at(lines: &mut Vec<String>, name: &str, indent: usize, text: &str) {
-    let mut line = name.to_string();
-    let mut empty = true;
-    for word in text.split(' ') {
-        let word = shortened(word, WIDTH - indent);
-        let room = line.chars().count() + usize::from(!empty) + word.chars().count() <= WIDTH;
-        if !room {
-            lines.push(std::mem::replace(&mut line, " ".repeat(indent)));
-            empty = true;
-        }
-        if !empty {
-            line.push(' ');
-        }
-        line.push_str(&word);
-        empty = false;
-    }
-    lines.push(line);
 }
 
 fn taken(run: &Run, written: &Written, most: usize, lines: &mut Vec<String>) {
     let fact = |name: &str| {
         run.taken.facts.iter().find(|(fact, _)| fact.starts_with(name)).map(|(_, value)| value)
     };
-    let first = fact("first lifts").map_or(String::new(), |time| format!(", t = {time}"));
-    let lifts = fact("lifts").map_or(String::new(), |value| format!("; lifts at {value}{first}"));
+    let first = fact("first lifts").map_or(String::new(), |time| format!(", at {time}"));
+    let lifts =
+        fact("lifts").map_or(String::new(), |value| format!("; lifts beyond {value}{first}"));
     at_most(2, lines, "", &format!("{}{lifts}", run.taken.structure));
-    if let Some(record) = &run.taken.record {
-        let short: Vec<String> =
-            record.split(' ').map(|word| shortened(word, LONGEST_NAME)).collect();
-        at_most(2, lines, "", &short.join(" "));
+    if let Some(record) = &run.taken.short_record {
+        let name = if record.chars().count() > WIDTH { "record " } else { "" };
+        at_most(2, lines, "", record.strip_prefix(name).unwrap_or(record));
     }
     let all: Vec<String> =
         run.taken.assumed.iter().map(|a| format!("{} ({})", a.what, a.key)).collect();
@@ -155,96 +159,23 @@ fn taken(run: &Run, written: &Written, most: usize, lines: &mut Vec<String>) {
         };
         let mut some = Vec::new();
         wrap(&mut some, "assumed: ", &(all[..shown].join("; ") + &rest));
-        if some.len() <= most || shown == 1 {
+        if some.len() <= most {
             lines.extend(some);
-            break;
+            return;
         }
     }
-}
-
-fn forces(run: &Run, most: usize, lines: &mut Vec<String>) {
-    let Some(forces) = &run.design_forces else { return };
-    // an asterisk where some are, a word where all are
-    let doubted = |one: (ForceName, DesignForce)| one.1.holds && !run.foretells(one);
-    let [some, every] = [forces.all().any(doubted), forces.all().all(|one| !run.foretells(one))];
-    let mark = if some && !every { "*" } else { "" };
-    let below = match forces.below_hz {
-        Some(hz) => Some(format!("below {} Hz", significant(hz, 3))),
-        None => {
-            matches!(run.parameters, FiledParameters::Rigid(_)).then(|| "between impacts".into())
-        }
-    };
-    let doubt = some.then(|| format!("{mark} not foretold").trim_start().to_string());
-    let of: Vec<String> = below.into_iter().chain(changes(run, forces)).chain(doubt).collect();
-    let of = if of.is_empty() { String::new() } else { format!(" ({})", of.join("; ")) };
-    let name = format!("design forces{of}  ");
-    let words = |brief| force_words(forces, brief, |one| if doubted(one) { mark } else { "" });
-    let (full, brief) = (words(false), words(true));
-    // all of them, in brief if need be; else as many as the lines hold
-    let shorter = (1..brief.len()).rev().map(|shown| (&brief[..shown], "; more in the report"));
-    for (some, rest) in [(&full[..], ""), (&brief[..], "")].into_iter().chain(shorter) {
-        let mut told = Vec::new();
-        wrap_at(&mut told, &name, FORCES_INDENT, &(some.join("; ") + rest));
-        if told.len() <= most || some.len() == 1 {
-            lines.extend(told);
-            break;
-        }
-    }
-}
-
-/// By how much those that are given change, the largest of them.
-fn changes(run: &Run, forces: &DesignForces) -> Option<String> {
-    let given = forces.all().filter(|(_, force)| force.holds).filter_map(|(_, force)| force.change);
-    let with = match run.parameters {
-        FiledParameters::Rigid(_) => "springs",
-        FiledParameters::Elastic(_) => "springs and mesh",
-    };
-    Some(format!("{} with {with}", percent(given.reduce(f64::max)?)))
-}
-
-/// The forces in words, each with its mark; those withheld are named. In brief without what the
-/// whole record has and without heights, which the report tells.
-fn force_words<'a>(
-    forces: &DesignForces,
-    brief: bool,
-    mark: impl Fn((ForceName, DesignForce)) -> &'a str,
-) -> Vec<String> {
-    // magnitudes: signs are in the report
-    let magnitude = |force: DesignForce| DesignForce {
-        value: force.value.map(f64::abs),
-        whole_record: force.whole_record.filter(|_| !brief),
-        above_base_m: force.above_base_m.filter(|_| !brief),
-        ..force
-    };
-    let cell = |(name, force): (ForceName, DesignForce)| {
-        let mark = mark((name, force));
-        let force = magnitude(force);
-        format!("{} {}{mark}{}", name.words(), force_value(name, &force), height(&force))
-    };
-    // the report has the vertical force, too
-    let mut all: Vec<_> =
-        forces.all().filter(|(name, _)| *name != ForceName::SoleVertical).collect();
-    all.sort_by_key(|(name, _)| order(*name));
-    all.into_iter().map(cell).collect()
-}
-
-/// What a section is designed for comes first: a screen may have no room for the others.
-fn order(name: ForceName) -> usize {
-    match name {
-        ForceName::ColumnShear => 0,
-        ForceName::ColumnBaseMoment => 1,
-        ForceName::Axial => 2,
-        ForceName::AxialTension => 3,
-        _ => 4,
+    if !all.is_empty() {
+        lines.push(format!("assumed: {} values: {place}", all.len()));
     }
 }
 
 fn springs(run: &Run, lines: &mut Vec<String>) {
     const SHOWN: usize = 2;
     const SAID: &str = "  numerical contact stiffness, not soil";
-    let of = format!("springs {}", run.springs_at.replace("each", "per"));
+    let of = format!("springs {}", run.springs_at.replace("each", "for one"));
     let mut table = Table::new([of.as_str(), "k1 [N/m]", "k2 [N/m]", "m2 [kg]", "c [N s/m]"]);
-    let steps = run.program.as_ref().map(|program| format!("{} steps", program.steps));
+    let steps =
+        run.program.as_ref().map(|program| format!("{}, {}", program.short(), program.steps));
     let mut add = |of: Option<&str>, units: &[Unit]| {
         for unit in units.iter().take(SHOWN) {
             let cells = [unit.k1_n_per_m, unit.k2_n_per_m, unit.m2_kg, unit.c_ns_per_m]
@@ -275,33 +206,33 @@ fn springs(run: &Run, lines: &mut Vec<String>) {
     lines.extend(all);
 }
 
-fn next(run: &Run, written: &Written, lines: &mut Vec<String>) {
-    let folder = written.folder.trim_end_matches('/');
-    let file = |name: &str| shortened(&format!("{folder}/{name}"), 58);
+fn next(run: &Run, written: &Written, crowding: Crowding, lines: &mut Vec<String>) {
+    let both = crowding.both_commands;
     if written.decks {
-        let commands = [
-            format!("python3 {};", file("decks/model_openseespy.py")),
-            format!("tune verify --parameters {}", file("parameters.json")),
-        ];
+        let run = format!("python3 {}", written.file("decks/model_openseespy.py"));
+        let check = format!("tune verify --parameters {}", written.file("parameters.json"));
         // on one line, if both fit
-        if commands.iter().map(|command| command.chars().count() + 1).sum::<usize>() < WIDTH - 10 {
-            wrap(lines, "OpenSees  ", &commands.join(" "));
+        if run.chars().count() + check.chars().count() + 2 < WIDTH - 10 {
+            wrap(lines, "OpenSees  ", &format!("{run}; {check}"));
         } else {
-            wrap(lines, "OpenSees  ", commands[0].trim_end_matches(';'));
-            wrap(lines, "check it  ", &commands[1]);
+            if both {
+                wrap(lines, "OpenSees  ", &run);
+            }
+            wrap(lines, if both { "check it  " } else { "OpenSees  " }, &check);
         }
     }
     match &run.program {
         Some(program) => {
-            at_most(3, lines, &format!("{:10}", program.short()), &program.line());
+            let typed = both && written.decks && run.sap2000 && program.csi;
+            let sheet =
+                if typed { format!("; to type from: decks/{SHEET}") } else { String::new() };
+            let line = program.line() + &sheet;
+            at_most(crowding.program, lines, &format!("{:10}", program.short()), &line);
             if written.decks && program.deck_of_even_steps {
-                let deck = format!("python3 {}", file(&format!("decks/{EVEN_DECK}")));
+                let deck = format!("python3 {}", written.file(&format!("decks/{EVEN_DECK}")));
                 wrap(lines, "its deck  ", &deck);
             }
         }
         None => wrap(lines, "SAP2000   ", NO_PROGRAM),
-    }
-    if written.report {
-        wrap(lines, "report    ", &file("report.html"));
     }
 }

@@ -44,7 +44,7 @@ pub fn design_forces(
     let dt = record.dt;
     let until =
         |times: [Option<f64>; 2]| samples_until(times.into_iter().flatten().reduce(f64::min), dt);
-    let (sole, rows) = match softer {
+    let (sole, mut rows) = match softer {
         Some(softer) => {
             let peaks = |matched: &Match, history: &History, demands: &Demands| {
                 let kept = all_between(body, dt, history, until([matched.overturned_fem_s, None]));
@@ -79,6 +79,11 @@ pub fn design_forces(
             (force(0), [1, 2, 3].map(force))
         }
     };
+    let half = 0.5 * body.mass * GRAVITY;
+    let at_rest = rows_of(kind, body, 0.0, [[0.0, half]; 2]);
+    if kind == Kind::AFrame {
+        rows.iter_mut().zip(at_rest).for_each(|(force, rest)| force.at_rest = Some(rest));
+    }
     let [shear, moment, axial] = rows.map(Some);
     let all = DesignForces { column_shear_n: shear, axial_n: axial, ..DesignForces::default() };
     match kind {
@@ -124,7 +129,7 @@ fn of_housner(
         } else {
             [[f, n], [0.0; 2]]
         };
-        let [shear, moment, axial] = rows(kind, body, theta, feet);
+        let [shear, moment, axial] = rows_of(kind, body, theta, feet);
         [f, shear, moment, axial]
     };
     forces.into_iter().enumerate().take(samples).map(row).collect()
@@ -132,7 +137,7 @@ fn of_housner(
 
 /// Column shear, moment, axial force for forces (H, N) of the left and the right foot of a body
 /// that leans by theta.
-fn rows(kind: Kind, body: &Body<f64>, theta: f64, feet: [[f64; 2]; 2]) -> ForceRow {
+fn rows_of(kind: Kind, body: &Body<f64>, theta: f64, feet: [[f64; 2]; 2]) -> ForceRow {
     let [[left_h, left_n], [right_h, right_n]] = feet;
     if kind == Kind::Block {
         return [left_h + right_h, (left_n - right_n) * body.half_width, -(left_n + right_n)];

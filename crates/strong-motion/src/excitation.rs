@@ -87,9 +87,7 @@ impl Excitation {
 
     /// One line: which record, from where, its scale, how much of it, and the peak of that part.
     pub fn line(&self) -> String {
-        let whole = &self.record;
-        let used = whole.truncated(self.duration());
-        let from = match &whole.source {
+        let from = match &self.record.source {
             crate::Source::File { path, units, .. } => {
                 format!("{}, in {units}", printable(&path.display().to_string()))
             }
@@ -98,6 +96,23 @@ impl Excitation {
                 "from no file".into()
             }
         };
+        let samples = self.record.truncated(self.duration()).len();
+        let step = self.record.dt;
+        self.told(&from, &format!(": {samples} samples of {step} s"))
+    }
+
+    /// The same, shorter: without the file's path and the number of samples.
+    pub fn short_line(&self) -> String {
+        let from = match &self.record.source {
+            crate::Source::File { units, .. } => format!("in {units}"),
+            _ => "embedded".into(),
+        };
+        self.told(&from, &format!(", step {} s", self.record.dt))
+    }
+
+    fn told(&self, from: &str, samples: &str) -> String {
+        let whole = &self.record;
+        let used = whole.truncated(self.duration());
         let part = if used.len() < whole.len() {
             format!("first {} s of {} s", seconds(used.duration()), seconds(whole.duration()))
         } else {
@@ -107,12 +122,9 @@ impl Excitation {
             format!("; vertical {}, peak {:.4} g", up.name, up.peak_g() * self.scale.abs())
         });
         format!(
-            "record {} ({from}), scale {}, {part}: {} samples of {} s, PGA {:.4} g at {} \
-             s{vertical}",
+            "record {} ({from}), scale {}, {part}{samples}, PGA {:.4} g at {} s{vertical}",
             whole.name,
             self.scale,
-            used.len(),
-            whole.dt,
             used.pga_g() * self.scale.abs(),
             seconds(used.pga_time())
         )

@@ -85,12 +85,9 @@ fn elastic(case: &ElasticCase) -> Result<Said, WebError> {
         springs: peaks(&assembled, &fem),
         with_members: None,
     });
-    let taken = Taken {
-        structure: report::elastic::title(&case.structure),
-        facts: Vec::new(),
-        record: Some(case.excitation.line()),
-        assumed: Vec::new(),
-    };
+    let title = report::elastic::title(&case.structure);
+    let mut taken = Taken::new(title, Vec::new());
+    taken.record = Some(case.excitation.line());
     let springs = springs
         .corners
         .first()
@@ -145,8 +142,10 @@ fn what_it_does(
         }
         HistoryOutcome::Completed => Finding::Stands {
             share_of_overturning: largest / alpha,
+            reference_share: None,
             over_s: record.duration(),
             if_feet_hold: false,
+            of_columns: false,
         },
         HistoryOutcome::Stopped { time }
         | HistoryOutcome::WorkBound { time }

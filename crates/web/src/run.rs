@@ -62,7 +62,8 @@ pub(crate) fn tune(case: &AnyCase, friction: f64) -> Result<RunAnswer, WebError>
     };
     let named = files.iter().map(|(name, text)| (name.clone(), text.len())).collect();
     *FILES.lock().unwrap_or_else(PoisonError::into_inner) = files;
-    let screen = screen(&run, &Written { folder: FOLDER, report: true, decks: true });
+    let written = Written { folder: FOLDER, report: true, decks: true, left_out: &left_out };
+    let screen = screen(&run, &written);
     let Run { accuracy, design_forces, .. } = run;
     Ok(RunAnswer { said, accuracy, design_forces, screen, files: named, left_out })
 }

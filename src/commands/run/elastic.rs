@@ -1,6 +1,6 @@
 //! `tune run` of an elastic structure.
 
-use super::{RunOptions, saved, springs_alone, threads};
+use super::{RunOptions, springs_alone, threads};
 use crate::commands::{
     CommandError,
     bounds::ended,
@@ -70,7 +70,8 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     progress.done();
     let answer = answer.map_err(|e| CommandError::Result(e.to_string()))?;
     let run = ElasticRun::new(case, assembled, tuned, record, answer, friction);
-    saved(run.save(&o.out, &files(), Output { figures: !o.no_figures, report: !o.no_report })?);
-    o.print(&run.said(run.filed(&o.out)))?;
+    let output = Output { figures: !o.no_figures, report: !o.no_report };
+    let left_out = run.save(&o.out, &files(), output)?;
+    o.print(&run.said(run.filed(&o.out)), &left_out)?;
     ended(&effort, &o.out)
 }

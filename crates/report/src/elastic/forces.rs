@@ -25,6 +25,7 @@ pub fn design_forces(structure: &ElasticStructure, of: &StructureForces) -> Desi
             raw: Some(force.raw),
             fixed: force.fixed.map(|peak| peak.value).filter(|value| *value != 0.0),
             rigid: force.rigid.map(|peak| peak.value),
+            at_rest: None,
             together: force.together,
             above_base_m: force.above_base_m,
             over_s: force.whole_record.map(|_| force.over_s),

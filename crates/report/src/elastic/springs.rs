@@ -1,7 +1,8 @@
 //! What is said of springs alone: of an elastic structure without a record.
 
 use super::super::{
-    AccuracyOn, AccuracyReport, FiledParameters, ProgramReport, Run, Taken, Unit, doubts, filed,
+    AccuracyOn, AccuracyReport, FiledParameters, ProgramReport, Run, Taken, Unit,
+    accuracy::THIS_RECORD, doubts, filed,
 };
 use super::title;
 use files::message::{quantity, significant};
@@ -51,7 +52,7 @@ fn accuracy(a: &ElasticAssessment, on_record: Option<&OnRecord>) -> AccuracyRepo
     };
     let part = on_record.filter(|on| !on.whole).map(|on| significant(on.compared_s, 3));
     let this =
-        part.map_or("this record".to_string(), |seconds| format!("this record to {seconds} s"));
+        part.map_or(THIS_RECORD.to_string(), |seconds| format!("{THIS_RECORD} to {seconds} s"));
     let all = [on(&this, m.record), on("synthetic motions", m.motions), on("releases", m.releases)];
     AccuracyReport {
         history_asked: of_history,
@@ -175,9 +176,9 @@ fn taken(parameters: &ElasticParameters) -> Taken {
     );
     let mass = quantity(structure.mass(), "kg");
     let text = format!(
-        "{}, {mass} in all, {} Hz if fixed",
+        "{}, {mass}, {} Hz if fixed",
         title(structure),
         significant(structure.frequency_hz(), 3)
     );
-    Taken { structure: text, facts, record: None, assumed: Vec::new() }
+    Taken::new(text, facts)
 }

@@ -1,6 +1,9 @@
 //! Warnings at the end of the screen, in the room that is left.
 
-use super::{LINES, at_most, wrap};
+use super::{
+    LINES, REPORT,
+    lines::{at_most, wrap},
+};
 use crate::{Run, sentence};
 use springs::results::{FiledFinding, Finding, Weight};
 
@@ -41,11 +44,13 @@ impl Warned {
         // words are wrapped at spaces, so that a line may stay shorter than it could be
         let short = (1..self.message.split(' ').count()).rev().find_map(|words| {
             let kept: Vec<&str> = self.message.split(' ').take(words).collect();
+            let whole = kept.last().is_none_or(|last| ends_a_part(last));
             let kept = kept.join(" ");
+            let kept = kept.trim_end_matches([',', ';', ':']);
             let enough = kept.chars().count() >= self.remedy.chars().count().min(LEAST_MESSAGE);
             let mut some = Vec::new();
             wrap(&mut some, WARNING, &format!("{kept} ...{}", self.remedy));
-            (enough && some.len() <= most).then_some(some)
+            (whole && enough && some.len() <= most).then_some(some)
         });
         short.unwrap_or_else(|| {
             let mut some = Vec::new();
@@ -55,8 +60,18 @@ impl Warned {
     }
 }
 
-/// Warnings in words, the gravest first.
-pub(super) fn warnings(run: &Run) -> Vec<Warned> {
+/// Whether a message may be cut behind a word: not behind a number without its unit, nor a word
+/// that wants another.
+fn ends_a_part(word: &str) -> bool {
+    const WANTS: [&str; 17] = [
+        "a", "an", "and", "at", "by", "far", "how", "in", "is", "it", "not", "of", "on", "so",
+        "the", "to", "with",
+    ];
+    !word.ends_with(|c: char| c.is_ascii_digit()) && !WANTS.contains(&word)
+}
+
+/// Warnings in words, the gravest first; those of decks last.
+pub(super) fn warnings(run: &Run, of_decks: &[String]) -> Vec<Warned> {
     let mut all: Vec<_> =
         run.remarks().filter(|finding| finding.weight >= Weight::Warning).collect();
     all.sort_by_key(|filed| (std::cmp::Reverse(filed.weight), urgency(&filed.finding)));
@@ -64,7 +79,14 @@ pub(super) fn warnings(run: &Run) -> Vec<Warned> {
         message: sentence(&filed.message),
         remedy: filed.remedy.as_ref().map_or(String::new(), |r| format!(" {}", sentence(r))),
     };
-    all.into_iter().map(words).collect()
+    let of_deck = |line: &String| {
+        let (message, remedy) = line.split_once(": ").unwrap_or((line, ""));
+        let remedy =
+            if remedy.is_empty() { String::new() } else { format!(" {}", sentence(remedy)) };
+        // a file's name stays as it is
+        Warned { message: format!("{message}."), remedy }
+    };
+    all.into_iter().map(words).chain(of_decks.iter().map(of_deck)).collect()
 }
 
 /// Lines that a warning wants.
@@ -72,12 +94,13 @@ pub(super) fn warning_lines(warning: &Warned) -> usize {
     warning.in_lines(LONGEST_WARNING).len()
 }
 
-/// Warnings in the room that is left: each has one line before any has a second.
+/// Warnings in the room that is left, the last line for the report: each has one line before any
+/// has a second.
 pub(super) fn tell(warnings: &[Warned], place: &str, lines: &mut Vec<String>) {
-    let room = LINES.saturating_sub(lines.len());
-    let told = if warnings.len() <= room { warnings.len() } else { room.saturating_sub(1) };
+    let room = (LINES - 1).saturating_sub(lines.len());
+    let told = warnings.len().min(room);
     let mut given = vec![1; told];
-    let mut left = room.saturating_sub(told + usize::from(told < warnings.len()));
+    let mut left = room - told;
     for most in 2..=LONGEST_WARNING {
         for (given, warning) in given.iter_mut().zip(warnings) {
             if left > 0 && warning_lines(warning) >= most {
@@ -90,7 +113,9 @@ pub(super) fn tell(warnings: &[Warned], place: &str, lines: &mut Vec<String>) {
         lines.extend(warning.in_lines(most));
     }
     if told < warnings.len() && lines.len() < LINES {
-        lines.push(format!("{WARNING}and {} more: {place}", warnings.len() - told));
+        let more = warnings.len() - told;
+        let plural = if more == 1 { "" } else { "s" };
+        lines.push(format!("{REPORT}{place}, with {more} more warning{plural}"));
     }
 }
 
@@ -127,12 +152,12 @@ mod tests {
         let starts = |lines: &[String]| lines.iter().filter(|l| l.starts_with(WARNING)).count();
         let all = told(&[3, 2, 1], 20);
         assert_eq!((all.len(), starts(&all)), (6, 3));
-        let some = told(&[3, 2, 1], LINES - 4);
+        let some = told(&[3, 2, 1], LINES - 5);
         assert_eq!((some.len(), starts(&some)), (4, 3));
         assert!(some[1].starts_with(' ') && some[1].ends_with("...") && some[2].ends_with("..."));
         let few = told(&[3, 2, 1], LINES - 2);
         assert_eq!(few.len(), 2);
-        assert_eq!(few[1], format!("{WARNING}and 2 more: report.html"));
+        assert_eq!(few[1], format!("{REPORT}report.html, with 2 more warnings"));
         assert!(told(&[1], LINES).is_empty());
     }
 }

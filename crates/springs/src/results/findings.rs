@@ -7,6 +7,9 @@ use dynamics::effort::CutBy;
 
 mod advice;
 mod message;
+mod not_done;
+
+pub use not_done::NotDone;
 
 /// How much a finding weighs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -87,11 +90,18 @@ pub enum Finding {
         uplift_g: f64,
     },
     Stands {
+        /// On springs.
         share_of_overturning: f64,
+        /// Of the reference, where it can be told.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        reference_share: Option<f64>,
         over_s: f64,
         /// Whether it would need more friction than there is.
         #[serde(default)]
         if_feet_hold: bool,
+        /// Whether shares are of columns that rock on footings of their own.
+        #[serde(default)]
+        of_columns: bool,
     },
     Overturns {
         time_s: f64,
@@ -202,6 +212,10 @@ pub enum Finding {
         over_s: f64,
         changes: Vec<PeakChange>,
     },
+    /// Largest forces that the structure bears before it moves, with what they are made of.
+    ForcesAtRest {
+        forces: Vec<ForceName>,
+    },
     /// What was cut, after how many stiffnesses, and the error that was reached of what was asked
     /// for.
     SearchCut {
@@ -268,38 +282,6 @@ pub enum Finding {
         record_s: f64,
         end: DeckEnd,
     },
-}
-
-/// What a search that was cut has not done.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum NotDone {
-    /// Other springs.
-    Stiffnesses,
-    /// The paper's procedure to the end, beside them.
-    PaperProcedure,
-    /// The error over the stiffness.
-    Front,
-    /// Springs that follow the record further.
-    Further,
-    /// Peaks over motions near the record.
-    NearMotions,
-    /// Whether forces change with the mesh and the springs.
-    ForceChecks,
-}
-
-impl NotDone {
-    /// In words.
-    fn words(self) -> &'static str {
-        match self {
-            Self::Stiffnesses => "other springs",
-            Self::PaperProcedure => "the paper's procedure to its end",
-            Self::Front => "the error over the stiffness",
-            Self::Further => "springs that follow the record further",
-            Self::NearMotions => "motions near the record",
-            Self::ForceChecks => "the check of forces",
-        }
-    }
 }
 
 /// Why a deck's history is judged for less than the record.
@@ -382,6 +364,7 @@ impl Finding {
             | Self::ProgramRestitution { asked: false }
             | Self::ProgramStepForAccuracy { .. } => Weight::Note,
             Self::NearMotions { .. }
+            | Self::ForcesAtRest { .. }
             | Self::MembersBeside
             | Self::DeckJudged { .. }
             | Self::WithoutVertical { .. } => Weight::Note,

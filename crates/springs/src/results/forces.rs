@@ -6,6 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use super::{Finding, ForceName, PeakChange};
 
+/// Share by which a force exceeds the one at rest at most, if the record adds nothing to it.
+const RECORD_ADDS: f64 = 0.01;
+
 /// A largest force, and whether it is the structure's.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DesignForce {
@@ -29,6 +32,10 @@ pub struct DesignForce {
     /// Of the rigid body by Housner's equation (N or N m).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rigid: Option<f64>,
+    /// Of an A-frame's legs: what they bear at rest, half of the weight on each foot and no thrust
+    /// (N or N m).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_rest: Option<f64>,
     /// What the base of an elastic structure's column bears at that time, below the same frequency.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub together: Option<ForcesTogether>,
@@ -60,12 +67,21 @@ impl DesignForce {
             raw: None,
             fixed: None,
             rigid: None,
+            at_rest: None,
             together: None,
             above_base_m: None,
             others: None,
             over_s: None,
             whole_record: None,
         }
+    }
+
+    /// Whether the largest is the one at rest.
+    pub fn is_at_rest(&self) -> bool {
+        let at_rest = |value: f64| {
+            self.at_rest.is_some_and(|rest| value.abs() < (1.0 + RECORD_ADDS) * rest.abs())
+        };
+        self.value.is_some_and(at_rest)
     }
 
     /// This force times a length (m): the moment at one end of a member without mass that has a
@@ -85,6 +101,7 @@ impl DesignForce {
             raw: by(self.raw),
             fixed: by(self.fixed),
             rigid: by(self.rigid),
+            at_rest: by(self.at_rest),
             others,
             ..self
         }
@@ -153,6 +170,13 @@ impl DesignForces {
         };
         let (over, changes): (Vec<f64>, Vec<PeakChange>) = self.all().filter_map(part).unzip();
         Some(Finding::ForcesHeldInPart { over_s: over.into_iter().reduce(f64::min)?, changes })
+    }
+
+    /// A finding of those that are largest before anything moves.
+    pub fn at_rest(&self) -> Option<Finding> {
+        let forces: Vec<ForceName> =
+            self.all().filter(|(_, force)| force.is_at_rest()).map(|(name, _)| name).collect();
+        (!forces.is_empty()).then_some(Finding::ForcesAtRest { forces })
     }
 
     /// A finding for every force that does not hold.

@@ -8,6 +8,7 @@ impl Finding {
     pub(crate) fn remedy(&self) -> Option<String> {
         let text = match self {
             Self::Stands { .. }
+            | Self::ForcesAtRest { .. }
             | Self::MembersBeside
             | Self::NearMotions { .. }
             | Self::DeckJudged { .. }
@@ -24,7 +25,7 @@ impl Finding {
                 "vary the scale by 1 %, and judge by many records: tune validate"
             }
             Self::PivotLeavesGround { .. } => "compare up to that time only",
-            Self::IllConditioned { .. } => "design with the statistics of many records: tune sweep",
+            Self::IllConditioned { .. } => "design by many records: tune sweep",
             Self::ForetoldUpTo { later_forces, .. } | Self::SlidesOn { later_forces, .. }
                 if !later_forces.is_empty() =>
             {
@@ -65,7 +66,9 @@ impl Finding {
             | Self::HistoriesUnfinished { .. }
             | Self::NearMotionsLeftOut { .. } => return self.remedy_of_search(),
             Self::ForcesHeldInPart { .. } => "design for the larger, and by several records",
-            Self::Sliding { .. } => "give a shear key, or the ground's --friction",
+            Self::Sliding { .. } => {
+                "give a shear key: feet do not slide here; --friction sets what the ground offers"
+            }
             Self::FreeFlight { .. } => "compare up to that time only",
             Self::TooStocky { .. } => "check height and width; rely on tests for such a body",
             Self::HistoryEndsEarly { .. } => {
@@ -73,10 +76,7 @@ impl Finding {
             }
             Self::FeetApart { .. } => "tie the feet, or design for what stays",
             Self::SmallestSteps { .. } => "compare with OpenSees: tune verify",
-            Self::VerticalLeftOut { changes, .. } if changes.is_empty() => {
-                "--vertical auto includes it"
-            }
-            Self::VerticalLeftOut { .. } => "it is left out here; --vertical auto includes it",
+            Self::VerticalLeftOut { .. } => "take it: --vertical auto",
             Self::Doubt { remedy, .. } => return Some(remedy.clone()),
         };
         Some(text.into())

@@ -14,17 +14,28 @@ fn on(model: FindingModel) -> &'static str {
     }
 }
 
+/// Part by which largest rotations on springs and without differ, both of which are then said.
+const SHARES_DIFFER: f64 = 0.05;
+
 fn s(time: f64) -> String {
     format!("{} s", significant(time, 4))
 }
 
-/// Design forces whose largest value comes after what can be foretold.
-fn later(forces: &[ForceName]) -> String {
+/// Names of forces in a sentence.
+fn listed(forces: &[ForceName]) -> String {
     let names: Vec<&str> = forces.iter().map(|force| force.words()).collect();
     match names.as_slice() {
-        [] => String::new(),
-        [one] => format!("; {one} is largest after that"),
-        [all @ .., last] => format!("; {} and {last} are largest after that", all.join(", ")),
+        [all @ .., one, last] => [all, &[&format!("{one} and {last}")]].concat().join(", "),
+        few => few.concat(),
+    }
+}
+
+/// Design forces whose largest value comes after what can be foretold.
+fn later(forces: &[ForceName]) -> String {
+    match forces.len() {
+        0 => String::new(),
+        1 => format!("; {} is largest after that", listed(forces)),
+        _ => format!("; {} are largest after that", listed(forces)),
     }
 }
 
@@ -51,6 +62,7 @@ impl Finding {
             | Self::LandingsUnfinished { .. }
             | Self::ForceWithheld { .. }
             | Self::ForcesHeldInPart { .. }
+            | Self::ForcesAtRest { .. }
             | Self::MembersBeside => self.springs(),
             Self::ProgramStepTooLong { .. }
             | Self::ProgramLoses { .. }
@@ -83,11 +95,27 @@ impl Finding {
                     significant(*uplift_g, 4)
                 )
             }
-            Self::Stands { share_of_overturning, if_feet_hold, .. } => format!(
-                "the structure rocks and stands{}: its largest rotation is {} of overturning",
-                if *if_feet_hold { ", if its feet hold" } else { "" },
-                percent(*share_of_overturning)
-            ),
+            Self::Stands {
+                share_of_overturning,
+                reference_share,
+                if_feet_hold,
+                of_columns,
+                ..
+            } => {
+                let differs = |reference: &f64| {
+                    (reference - share_of_overturning).abs()
+                        > SHARES_DIFFER * share_of_overturning.max(*reference)
+                };
+                let other = reference_share.filter(differs).map_or(String::new(), |reference| {
+                    format!(" on springs, {} without", percent(reference))
+                });
+                format!(
+                    "it rocks and stands{}: largest rotation {}{} of overturning{other}",
+                    if *if_feet_hold { ", if its feet hold" } else { "" },
+                    if *of_columns { "of columns " } else { "" },
+                    percent(*share_of_overturning)
+                )
+            }
             Self::Overturns { time_s, reference_s } => match reference_s {
                 Some(reference) => format!(
                     "the structure overturns at t = {} (in the reference at {}); numbers count up \
@@ -139,7 +167,7 @@ impl Finding {
                     ""
                 };
                 format!(
-                    "this motion is ill-conditioned: 0.1 % of the width moves it by {}, so no \
+                    "the motion is ill-conditioned: 0.1 % of the width moves it by {}, so no \
                         model foretells it to its end{judged}",
                     percent(*moved_by_width)
                 )
@@ -235,6 +263,12 @@ impl Finding {
                     later.collect::<Vec<_>>().join(", ")
                 )
             }
+            Self::ForcesAtRest { forces } => format!(
+                "{} {} largest at rest: the frame's own weight, half of it on each foot and no \
+                    thrust between them; rocking adds nothing",
+                listed(forces),
+                if forces.len() == 1 { "is" } else { "are" }
+            ),
             Self::MembersBeside => {
                 "springs are tuned for the structure without its dampers, tendon and friction"
                     .into()

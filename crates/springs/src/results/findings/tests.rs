@@ -88,7 +88,7 @@ fn what_was_left_out_is_told_with_what_it_would_change() {
     let finding = Finding::VerticalLeftOut { vertical_g: 1.84, horizontal_g: 0.99, changes };
     assert_eq!(
         finding.message(),
-        "with vertical motion (1.84 g beside 0.99 g) moment at column base is 20.9 MN m, not 10.8 \
-            MN m; moment at the apex is 10.1 MN m, not 10 MN m"
+        "vertical motion of 1.84 g beside 0.99 g is left out; with it moment at column base is \
+            20.9 MN m, not 10.8 MN m, moment at the apex is 10.1 MN m, not 10 MN m"
     );
 }

@@ -25,14 +25,11 @@ impl Finding {
                 });
                 let changed: Vec<String> = changed.collect();
                 let [vertical, across] = [vertical_g, horizontal_g].map(|g| significant(*g, 3));
-                if changed.is_empty() {
-                    format!("vertical motion of {vertical} g beside {across} g is left out")
-                } else {
-                    format!(
-                        "with vertical motion ({vertical} g beside {across} g) {}",
-                        changed.join("; ")
-                    )
-                }
+                let with = match changed.is_empty() {
+                    true => String::new(),
+                    false => format!("; with it {}", changed.join(", ")),
+                };
+                format!("vertical motion of {vertical} g beside {across} g is left out{with}")
             }
             Self::Doubt { message, .. } => message.clone(),
             Self::DeckJudged { judged_s, record_s, end } => {

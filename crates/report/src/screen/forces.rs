@@ -1,0 +1,114 @@
+//! Design forces on the screen: two to a line, the largest moment first.
+
+use super::{WIDTH, lines::wrap};
+use crate::{FiledParameters, Run};
+use files::message::{percent, quantity, significant};
+use springs::results::{DesignForce, DesignForces, ForceName};
+
+/// Blanks before a cell, and between two.
+const INDENT: usize = 2;
+
+/// A head, and the forces below it; none without a record.
+pub(super) fn lines(run: &Run) -> Vec<String> {
+    let Some(forces) = &run.design_forces else { return Vec::new() };
+    // an asterisk where some are, a word where all are
+    let doubted = |one: (ForceName, DesignForce)| one.1.holds && !run.foretells(one);
+    let [some, every] = [forces.all().any(doubted), forces.all().all(|one| !run.foretells(one))];
+    let mark = if some && !every { "*" } else { "" };
+    let doubt = some.then(|| format!("{mark} not foretold").trim_start().to_string());
+    let notes: Vec<String> = changes(run, forces).into_iter().chain(doubt).collect();
+    let notes = if notes.is_empty() { String::new() } else { format!(" ({})", notes.join("; ")) };
+    let mut lines = Vec::new();
+    wrap(&mut lines, "", &format!("design forces{}{notes}", which(run, forces)));
+    // the report has the vertical force, too
+    let mut all: Vec<_> =
+        forces.all().filter(|(name, _)| *name != ForceName::SoleVertical).collect();
+    all.sort_by(|a, b| order(*a).total_cmp(&order(*b)));
+    let cells = |brief: bool| -> Vec<[String; 2]> {
+        let cell = |&(name, force): &(ForceName, DesignForce)| {
+            let mark = if doubted((name, force)) { mark } else { "" };
+            [short(name).to_string(), value(name, &force, mark, brief)]
+        };
+        all.iter().map(cell).collect()
+    };
+    let rows = in_pairs(&cells(false)).or_else(|| in_pairs(&cells(true)));
+    let one_each = || cells(false).iter().map(|cell| format!("  {}", cell.join("  "))).collect();
+    lines.extend(rows.unwrap_or_else(one_each));
+    lines
+}
+
+/// What they are the largest of.
+fn which(run: &Run, forces: &DesignForces) -> String {
+    match (&run.parameters, forces.below_hz) {
+        (FiledParameters::Rigid(_), _) => " between impacts".into(),
+        (_, Some(hz)) => format!(" below {} Hz, landings included", significant(hz, 3)),
+        (_, None) => ", landings included".into(),
+    }
+}
+
+/// By how much those that are given change, the largest of them.
+fn changes(run: &Run, forces: &DesignForces) -> Option<String> {
+    let given = forces.all().filter(|(_, force)| force.holds).filter_map(|(_, force)| force.change);
+    let with = match run.parameters {
+        FiledParameters::Rigid(_) => "springs",
+        FiledParameters::Elastic(_) => "springs and mesh",
+    };
+    Some(format!("{} with {with}", percent(given.reduce(f64::max)?)))
+}
+
+/// Moments first, the largest of them before the others.
+fn order((name, force): (ForceName, DesignForce)) -> f64 {
+    match name {
+        ForceName::ColumnBaseMoment | ForceName::ColumnTopMoment | ForceName::ApexMoment => {
+            -force.value.or(force.raw).map_or(0.0, f64::abs)
+        }
+        ForceName::ColumnShear => 1.0,
+        ForceName::Axial => 2.0,
+        ForceName::AxialTension => 3.0,
+        ForceName::SoleShear | ForceName::SoleVertical => 4.0,
+    }
+}
+
+/// A name without what the report adds to it.
+fn short(name: ForceName) -> &'static str {
+    name.words().trim_end_matches(", footing included")
+}
+
+/// The magnitude, when, and where; what is withheld lies between what was found.
+fn value(name: ForceName, force: &DesignForce, mark: &str, brief: bool) -> String {
+    let newtons = |x: f64| quantity(x.abs(), name.unit());
+    let Some(largest) = force.value else {
+        let found = force.others.and_then(|others| others.range());
+        return match found {
+            Some([low, high]) => format!("withheld: {} to {}", newtons(low), newtons(high)),
+            None => "withheld".into(),
+        };
+    };
+    let when = match force.is_at_rest() {
+        true => ", own weight".to_string(),
+        false => format!(" at {} s", significant(force.time_s, 4)),
+    };
+    let up = force.above_base_m.filter(|above| *above > 0.0 && !brief);
+    let up = up.map_or(String::new(), |above| format!(", {} m up", significant(above, 3)));
+    let part = force.over_s.filter(|_| !brief);
+    let part = part.map_or(String::new(), |over| format!(" (first {} s)", significant(over, 3)));
+    format!("{}{mark}{when}{up}{part}", newtons(largest))
+}
+
+/// Two cells to a line, names and values below each other; none if a line would be too long.
+fn in_pairs(cells: &[[String; 2]]) -> Option<Vec<String>> {
+    let letters = |text: &String| text.chars().count();
+    let width = |column: usize, part: usize| {
+        cells.iter().skip(column).step_by(2).map(|cell| letters(&cell[part])).max().unwrap_or(0)
+    };
+    let widths = [0, 1].map(|column| [width(column, 0), width(column, 1)]);
+    let line = |pair: &[[String; 2]]| {
+        let cells = pair.iter().zip(widths);
+        let cells = cells.map(|([name, value], [first, second])| {
+            format!("{:INDENT$}{name:<first$}  {value:<second$}", "")
+        });
+        cells.collect::<String>().trim_end().to_string()
+    };
+    let lines: Vec<String> = cells.chunks(2).map(line).collect();
+    lines.iter().all(|line| letters(line) <= WIDTH).then_some(lines)
+}
