@@ -65,6 +65,7 @@ fn record_scale_and_duration_are_remembered_until_told_otherwise() {
     fs::create_dir(&elsewhere).unwrap();
     let simulate = ["simulate", "--parameters", "../out/parameters.json"];
     let output = tune(&elsewhere, &simulate);
+    let used = "scale 1.5, first 8 s of 12 s: 801 samples of 0.01 s, PGA 0.46";
     assert!(stderr(&output).contains(used), "{}", stderr(&output));
     let found = json(&output.stdout);
     for key in

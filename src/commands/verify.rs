@@ -22,6 +22,7 @@ use decks::{
     verify::{ComparedPeak, LIMIT, Program, Verification, verify},
 };
 use figures::history::{self, HistoryFigure, Trace};
+use files::message::percent;
 use rocking::motion::Motion;
 use run_folder::{
     folder::Folder, folder::identity, folder::of_one_run, pictures::subtitle, place::check_folder,
@@ -153,7 +154,7 @@ fn peaks_table(title: &str, peaks: &[ComparedPeak]) -> Table {
     for peak in peaks {
         let unit = if peak.unit == "m" { "mm" } else { "mrad" };
         let difference =
-            peak.difference_percent().map_or("-".into(), |percent| format!("{percent:+.2} %"));
+            peak.difference_percent().map_or("-".into(), |share| percent(1e-2 * share));
         let number = |x: f64| format!("{:.3}", x * 1e3);
         let name = format!("peak {} [{unit}]", peak.quantity);
         table.add_row([name, number(peak.ours), number(peak.opensees), difference]);
@@ -164,7 +165,8 @@ fn peaks_table(title: &str, peaks: &[ComparedPeak]) -> Table {
 /// What is judged, and how it came out.
 fn judged(result: &Verification) -> String {
     let verdict = &result.verdict;
-    let whether = if verdict.within { "within" } else { "NOT within" };
+    let (agrees, whether) =
+        if verdict.within { ("AGREES", "within") } else { ("DOES NOT AGREE", "NOT within") };
     let mut out = String::new();
     let until = verdict.until.unwrap_or_default();
     let _ = match verdict.end {
@@ -182,8 +184,11 @@ fn judged(result: &Verification) -> String {
                 rotational inertia\nof its own: how it turns in the air is not defined"
         ),
     };
-    let _ =
-        writeln!(out, "OpenSees is {whether} {LIMIT} of tune simulate's u: {:.1e}", verdict.error);
+    let _ = writeln!(
+        out,
+        "{agrees}: OpenSees is {whether} {LIMIT} of tune simulate's u: {:.1e}",
+        verdict.error
+    );
     if let Some(parted) = verdict.parted {
         let _ = writeln!(out, "OpenSees first differs by 1 % of the largest u at {parted:.2} s");
     }

@@ -98,8 +98,16 @@ fn values_of_the_wrong_type() {
         ("1.0", "\"1.0\"", "line 3: height_m is \"1.0\"; write a number, without quotes"),
         ("1.0", "[1.0]", "line 3: height_m is [1.0]; write a number"),
         ("1.0", "2020-01-01", "line 3: height_m is 2020-01-01; write a number"),
-        ("100.0", "99999999999999999999999", "write a number with a point or an exponent"),
-        ("\"block\"", "\"tower\"", "kind is \"tower\"; known are aframe, block, pier or frame"),
+        (
+            "100.0",
+            "99999999999999999999999",
+            "line 5: mass_kg is 99999999999999999999999; write 1e23",
+        ),
+        (
+            "\"block\"",
+            "\"tower\"",
+            "kind is \"tower\"; known are aframe, block (a cabinet, a tank, a column), pier",
+        ),
         (
             "mass_kg = 100.0",
             "mass_kg = 1.0\nmass_kg = 2.0",

@@ -47,7 +47,7 @@ fn doubts(case: &str, more: &[&str]) -> Vec<String> {
     let doubts: Vec<_> = findings.iter().filter(|finding| finding["finding"] == "doubt").collect();
     assert!(doubts.iter().all(|doubt| doubt["weight"] == "warning"), "{doubts:?}");
     assert!(
-        doubts.is_empty() || String::from_utf8_lossy(&output.stdout).contains("warning   "),
+        doubts.is_empty() || String::from_utf8_lossy(&output.stdout).contains("CHECK     "),
         "{output:?}"
     );
     let words = |doubt: &&serde_json::Value| {
@@ -68,7 +68,8 @@ fn doubts_are_warnings() {
     let found = doubts(&light, &short);
     assert!(
         found.len() == 1
-            && found[0].contains("mean density of 0.3125 kg/m3, not within 5 to 25000; check"),
+            && found[0]
+                .contains("a mean density of 0.3125 kg/m3 is not within 5 to 25000: 0.4 kg in a"),
         "{found:?}"
     );
     let plain = CABINET.replace("1.9", "1.0");

@@ -36,10 +36,7 @@ fn a_sweep_that_asks_for_nothing_or_twice_is_refused_with_its_line() {
             format!("{HEAD}restitution = 1.5\n{BLOCK}{GROUND}{LEVELS}"),
             ["line 3", "restitution has 1.5"],
         ),
-        (
-            format!("{HEAD}model = \"both ways\"\n{BLOCK}{GROUND}{LEVELS}"),
-            ["line 3", "unknown variant"],
-        ),
+        (format!("{HEAD}model = \"both ways\"\n{BLOCK}{GROUND}{LEVELS}"), ["line 3", "known are"]),
         (format!("{HEAD}part = 0\n{BLOCK}{GROUND}{LEVELS}"), ["line 3", "1 to 1000000"]),
         (
             format!("{HEAD}{BLOCK}[records]\nearthquakes = 0\n{LEVELS}"),

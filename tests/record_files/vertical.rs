@@ -114,8 +114,10 @@ fn a_run_shows_its_part_and_remembers_it() {
         );
         assert_eq!(code, 0, "{err}");
         assert!(out.contains("; vertical "), "{out}");
+        let tables = fs::read_to_string(dir.path().join("out/decks/model_sap2000.s2k")).unwrap();
         assert!(
-            out.contains("model_sap2000.s2k is left out, it has no vertical ground motion. Take"),
+            tables.contains("LoadName=U3   Function=GROUND_MOTION_UP")
+                && tables.matches("Name=GROUND_MOTION_UP ").count() == 203,
             "{out}"
         );
         let parameters: Value =

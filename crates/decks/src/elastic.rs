@@ -115,7 +115,6 @@ impl ElasticDeck<'_> {
         let left_out = [
             ("damper", !self.layout.dampers.is_empty()),
             ("tendon", !self.layout.tendons.is_empty()),
-            ("vertical ground motion", self.record.vertical.is_some()),
         ];
         match left_out.into_iter().find(|(_, there)| *there) {
             Some((name, _)) => Err(ExportError::Member { name, format: format.name() }),

@@ -195,7 +195,7 @@ pub enum ExportError {
     Number { name: &'static str, value: f64 },
     #[error(
         "export: {name} is not written for {format}; leave it out, or take another --format \
-            (SAP2000 tables have no damper, tendon, friction and vertical ground motion)"
+            (SAP2000 tables have no damper, tendon and friction)"
     )]
     Member { name: &'static str, format: &'static str },
     #[error("export: --stepping {name} is not known; give events, even or touches")]
@@ -278,13 +278,11 @@ pub fn export(
 
 /// The text of a deck.
 fn export_model(model: &DeckModel, format: DeckFormat) -> Result<String, ExportError> {
-    let record = model.record;
     let (members, sap2000) = (&model.members, format.is_sap2000());
     for (name, left_out) in [
         ("friction", members.friction.is_some() && sap2000),
         ("damper", members.damper.is_some() && sap2000),
         ("tendon", members.tendon.is_some() && sap2000),
-        ("vertical ground motion", record.vertical.is_some() && sap2000),
     ] {
         if left_out {
             return Err(ExportError::Member { name, format: format.name() });

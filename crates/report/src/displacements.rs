@@ -39,8 +39,12 @@ pub fn peak_table(run: &Run) -> Option<Table> {
     };
     // the parts of a displacement are largest at times of their own, so that they are more than the
     // whole
-    let largest =
-        if pair.reference.bending_m.is_some() { "largest, each by itself" } else { "largest" };
+    let opposed = pair.reference.rocking_m > pair.reference.top_displacement_m;
+    let largest = match pair.reference.bending_m {
+        Some(_) if opposed => "largest; parts oppose",
+        Some(_) => "largest, each by itself",
+        None => "largest",
+    };
     let mut head = vec![largest.to_string(), reference, "on springs".into(), "difference".into()];
     head.extend(with.map(|_| "with members".into()));
     let row = |(name, of, words): PeakRow| {

@@ -289,8 +289,7 @@ impl ElasticParts<'_> {
         run.taken.short_record = Some(self.case.excitation.short_line());
         run.taken.assumed = Assumed::all(&self.case.assumptions());
         run.friction_needed = Some(self.friction_needed().value);
-        run.sap2000 =
-            self.assembled.members == Members::default() && self.record.vertical.is_none();
+        run.sap2000 = self.assembled.members == Members::default();
         run.sections.extend(self.comparison(&run));
         run
     }

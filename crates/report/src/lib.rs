@@ -264,11 +264,16 @@ impl Run {
         })
     }
 
+    /// Whether the motion is one of many that the record might as well have made.
+    pub(crate) fn one_of_many(&self) -> bool {
+        self.findings.iter().any(|f| matches!(f.finding, Finding::IllConditioned { .. }))
+    }
+
     /// Whether, and up to when, a motion can be foretold; nothing where nothing rocks or stands.
     fn foretold(&self) -> String {
         let any = |of: fn(&Finding) -> bool| self.findings.iter().any(|filed| of(&filed.finding));
-        if any(|f| matches!(f, Finding::IllConditioned { .. })) {
-            return "; no model foretells it".into();
+        if self.one_of_many() {
+            return "; no model predicts it".into();
         }
         let until = self.findings.iter().find_map(|filed| match filed.finding {
             Finding::ForetoldUpTo { time_s, .. } | Finding::SlidesOn { time_s, .. } => Some(time_s),
@@ -278,7 +283,7 @@ impl Run {
             _ => None,
         });
         if let Some(until) = until {
-            return format!("; foretold to {} s", files::message::significant(until, 4));
+            return format!("; predictable to {} s", files::message::significant(until, 4));
         }
         let in_part = any(|f| match f {
             Finding::DeckJudged { end, .. } => *end != DeckEnd::Record,
@@ -291,7 +296,7 @@ impl Run {
             ),
         });
         match any(|f| matches!(f, Finding::Stands { .. })) && !in_part {
-            true => "; it can be foretold".into(),
+            true => "; predictable".into(),
             false => String::new(),
         }
     }

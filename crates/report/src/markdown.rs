@@ -109,7 +109,7 @@ fn forces(run: &Run) -> Option<Section> {
     let cell = |x: Option<f64>, name: ForceName| x.map_or("-".into(), |x| quantity(x, name.unit()));
     let row = |(name, force): (ForceName, DesignForce)| {
         let doubt =
-            if force.holds && !run.foretells((name, force)) { ", not foretold" } else { "" };
+            if force.holds && !run.foretells((name, force)) { ", not predictable" } else { "" };
         vec![
             format!("{}{}", name.words(), height(&force)),
             force_value(name, &force) + doubt,

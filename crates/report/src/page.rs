@@ -166,8 +166,8 @@ fn programs(run: &Run) -> (&'static str, &'static str, String) {
                             <code>decks/sap2000_by_hand.txt</code> is the same to type from."
                     }
                     false => {
-                        " No SAP2000 deck was written: its tables leave vertical motion, dampers, \
-                            tendons and friction out."
+                        " No SAP2000 deck was written: its tables leave dampers, tendons and \
+                            friction out."
                     }
                 };
                 format!("<p>{}: {}.{deck}</p>\n", escape(&program.program), escape(&program.line()))

@@ -77,7 +77,7 @@ impl ProgramReport {
             ProgramSetting::new(
                 "rotational inertia at the mass",
                 value.clone(),
-                format!("inertia {value}"),
+                format!("inertia {value} (for its steps)"),
             )
         });
         Some(Self::new(row, units.into(), inertia, "top"))
@@ -234,11 +234,11 @@ fn errors<U>(row: &ProgramRow<U>, peaks: &str) -> String {
     let history = nrmse.map_or(String::new(), |x| format!(", NRMSE {}", significant(x, 2)));
     let n = errors.histories;
     if median.is_none() {
-        return format!("NOT to be used: {} of {n} motions lost", errors.lost);
+        return format!("NOT to be used: fails on {} of {n} motions", errors.lost);
     }
     let lost = match errors.lost {
         0 => format!("on {n} motions"),
-        lost => format!("{lost} of {n} motions lost"),
+        lost => format!("fails on {lost} of {n} motions"),
     };
     let ninety = ninety.map_or(String::new(), |error| format!(", {} (90 %)", percent(error)));
     format!("{peaks} within {} (median){ninety}{history}; {lost}", cell(median))

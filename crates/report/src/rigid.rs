@@ -96,10 +96,7 @@ impl RigidRun {
         let mut sections = sections(&parameters);
         sections.extend(self.sections());
         let record = &self.job.record;
-        let (steps, sap2000) = (
-            equal_steps(&parameters, record),
-            record.vertical.is_none() && parameters.members().is_none(),
-        );
+        let (steps, sap2000) = (equal_steps(&parameters, record), parameters.members().is_none());
         let alone = alone(parameters);
         let mut facts = alone.taken.facts.clone();
         facts.extend(self.job.rocking.uplifts.first().map(|uplift| super::first_lift(uplift.time)));

@@ -9,7 +9,7 @@ mod warnings;
 use super::{Run, Table, Unit, peak_table};
 use files::message::{shortened, significant};
 use lines::{at_most, wrap};
-use warnings::{tell, warning_lines, warnings};
+use warnings::{Warned, is_doubt, tell, warning_lines, warnings};
 
 /// Lines of a screen, and letters of a line.
 pub(crate) const LINES: usize = 30;
@@ -68,6 +68,8 @@ pub const EVEN_DECK: &str = "model_even.py";
 pub const SHEET: &str = "sap2000_by_hand.txt";
 /// Letters of a path in a command.
 const LONGEST_PATH: usize = 58;
+/// What a doubt of what was given begins with.
+const CHECK: &str = "CHECK     ";
 /// What the report's line begins with.
 const REPORT: &str = "report    ";
 
@@ -147,6 +149,9 @@ fn taken(run: &Run, written: &Written, most: usize, lines: &mut Vec<String>) {
     if let Some(record) = &run.taken.short_record {
         let name = if record.chars().count() > WIDTH { "record " } else { "" };
         at_most(2, lines, "", record.strip_prefix(name).unwrap_or(record));
+    }
+    for filed in run.remarks().filter(|filed| is_doubt(filed)) {
+        lines.extend(Warned::of(CHECK, filed).in_lines(most));
     }
     let all: Vec<String> =
         run.taken.assumed.iter().map(|a| format!("{} ({})", a.what, a.key)).collect();

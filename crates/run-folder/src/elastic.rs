@@ -267,9 +267,11 @@ impl ElasticRun {
         let program = self.parameters.program.as_ref();
         let of_steps = |row| {
             let deck = |format| stepped_deck(&self.assembled, row, &self.record, format);
-            Ok::<_, FolderError>(
-                models::even_decks(Some(row), deck)?.and(models::sheet(Some(row), deck)?),
-            )
+            Ok::<_, FolderError>(models::even_decks(Some(row), deck)?.and(models::sheet(
+                Some(row),
+                &self.record,
+                deck,
+            )?))
         };
         let decks = decks.and(program.map_or_else(|| Ok(RunTexts::default()), of_steps)?);
         let mut files: Vec<_> =

@@ -3,6 +3,7 @@
 use decks::{DeckFormat, ExportError, SteppedDeck};
 use report::screen::{EVEN_DECK, SHEET};
 use springs::parameters::program::ProgramRow;
+use strong_motion::Record;
 
 use crate::{FolderError, texts::RunTexts};
 
@@ -40,9 +41,11 @@ pub(crate) fn even_decks<U>(
     }
 }
 
-/// The sheet for SAP2000 or ETABS, on springs for the program's steps; none for another program.
+/// The sheet for SAP2000 or ETABS, on springs for the program's steps, and the ground motion that
+/// it names; none for another program.
 pub(crate) fn sheet<U>(
     program: Option<&ProgramRow<U>>,
+    record: &Record,
     deck: impl Fn(DeckFormat) -> Result<SteppedDeck, ExportError>,
 ) -> Result<RunTexts, FolderError> {
     if !program.is_some_and(ProgramRow::is_csi) {
@@ -50,8 +53,17 @@ pub(crate) fn sheet<U>(
     }
     let texts =
         gathered(&[(SHEET, DeckFormat::Sap2000Sheet)], |_, format| Ok((deck(format)?.text, None)))?;
+    let mut files = texts.files;
+    if !files.is_empty() {
+        let motion = |name: &str, all: &[f64]| {
+            let lines: String = all.iter().map(|a| format!("{a:.9e}\n")).collect();
+            (format!("decks/{name}"), lines)
+        };
+        files.push(motion("ground_motion.txt", &record.accel));
+        files.extend(record.vertical.as_ref().map(|_| motion("ground_motion_up.txt", record.up())));
+    }
     // of what the tables have not they tell themselves
-    Ok(RunTexts { left_out: Vec::new(), ..texts })
+    Ok(RunTexts { files, left_out: Vec::new() })
 }
 
 fn gathered(

@@ -43,6 +43,8 @@ const FILES: &[&str] = &[
     "decks/model_even.tcl",
     "decks/model_sap2000.s2k",
     "decks/sap2000_by_hand.txt",
+    "decks/ground_motion.txt",
+    "decks/ground_motion_up.txt",
     "decks/springs.csv",
     "decks/springs.md",
 ];
@@ -189,7 +191,7 @@ fn run_decks(
     let even = models::even_decks(parameters.program.as_ref(), |format| {
         decks::stepped_deck(&parameters, record, format, Stepping::Even)
     })?;
-    let sheet = models::sheet(parameters.program.as_ref(), |format| {
+    let sheet = models::sheet(parameters.program.as_ref(), record, |format| {
         decks::stepped_deck(&parameters, record, format, Stepping::Even)
     })?;
     Ok(all.and(even).and(sheet))

@@ -132,8 +132,9 @@ fn said<T>(
     // writing to a String does not fail
     let _ = writeln!(
         said,
-        "OpenSees is {} {LIMIT} of our own rotation ({rotation:.1e}) and {} of our drift \
+        "{}: OpenSees is {} {LIMIT} of our own rotation ({rotation:.1e}) and {} of our drift \
             ({drift:.1e}), NRMSE {over}",
+        if within([rotation, drift]) { "AGREES" } else { "DOES NOT AGREE" },
         if within([rotation, drift]) { "within" } else { "NOT within" },
         LOOSER * LIMIT
     );

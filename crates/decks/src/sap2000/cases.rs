@@ -5,6 +5,10 @@ use crate::{model::digits, stepping::EvenSteps};
 use fixed_steps::Integrator;
 use rocking::scalar::GRAVITY;
 
+/// Functions of the record.
+const ACROSS: &str = "GROUND_MOTION";
+const UPWARDS: &str = "GROUND_MOTION_UP";
+
 pub(super) fn loads(parts: &SapModel) -> Vec<SapTable> {
     let mut forces = SapTable::new("JOINT LOADS - FORCE");
     for joint in parts.joints.iter().filter(|joint| joint.mass > 0.0) {
@@ -72,17 +76,7 @@ pub(super) fn cases(parts: &SapModel) -> Vec<SapTable> {
             ("OutSteps", &out_steps),
             ("StepSize", &digits(step)),
         ]),
-        SapTable::new("CASE - DIRECT HISTORY 2 - LOAD ASSIGNMENTS").row(&[
-            ("Case", &"QUAKE"),
-            ("LoadType", &"Accel"),
-            ("LoadName", &"U1"),
-            ("Function", &"GROUND_MOTION"),
-            ("TransAccSF", &1),
-            ("TimeFactor", &1),
-            ("ArrivalTime", &0),
-            ("CoordSys", &"GLOBAL"),
-            ("Angle", &0),
-        ]),
+        motions(parts),
         // dashpots and materials have all damping
         SapTable::new("CASE - DIRECT HISTORY 3 - PROPORTIONAL DAMPING").row(&[
             ("Case", &"QUAKE"),
@@ -102,6 +96,29 @@ pub(super) fn cases(parts: &SapModel) -> Vec<SapTable> {
             ("UseEvStep", &"No"),
         ]),
     ]
+}
+
+/// The ground's acceleration across, and upwards where the record has it.
+fn motions(parts: &SapModel) -> SapTable {
+    let mut table = SapTable::new("CASE - DIRECT HISTORY 2 - LOAD ASSIGNMENTS");
+    let mut motion = |direction: &str, function: &str| {
+        table.add(&[
+            ("Case", &"QUAKE"),
+            ("LoadType", &"Accel"),
+            ("LoadName", &direction),
+            ("Function", &function),
+            ("TransAccSF", &1),
+            ("TimeFactor", &1),
+            ("ArrivalTime", &0),
+            ("CoordSys", &"GLOBAL"),
+            ("Angle", &0),
+        ]);
+    };
+    motion("U1", ACROSS);
+    if parts.record.vertical.is_some() {
+        motion("U3", UPWARDS);
+    }
+    table
 }
 
 /// How the program steps.
@@ -169,13 +186,13 @@ impl CaseSettings {
 
 pub(super) fn record(parts: &SapModel) -> Vec<SapTable> {
     let mut table = SapTable::new("FUNCTION - TIME HISTORY - USER");
-    for (i, &a) in parts.record.accel.iter().enumerate() {
-        let time = i as f64 * parts.record.dt;
-        table = table.row(&[
-            ("Name", &"GROUND_MOTION"),
-            ("Time", &digits(time)),
-            ("Value", &digits(a)),
-        ]);
+    let record = parts.record;
+    let up: &[f64] = if record.vertical.is_some() { record.up() } else { &[] };
+    for (name, motion) in [(ACROSS, &record.accel[..]), (UPWARDS, up)] {
+        for (i, &a) in motion.iter().enumerate() {
+            let time = i as f64 * record.dt;
+            table.add(&[("Name", &name), ("Time", &digits(time)), ("Value", &digits(a))]);
+        }
     }
     vec![table]
 }

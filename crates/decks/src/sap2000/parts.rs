@@ -146,9 +146,13 @@ impl<'a> SapModel<'a> {
     /// What is expected, as a comment.
     pub(crate) fn expected(&self) -> String {
         let [u, v] = self.peaks;
+        let by = match self.even {
+            Some(_) => "by an emulation of these steps",
+            None => "within 1 % of our own history",
+        };
         format!(
-            "$ Expected at joint {}, m, within 1 % of our own history: settled U3 {}; U1 {} to {}; \
-                U3 above settled {} to {}\n",
+            "$ Expected at joint {}, m, {by}: settled U3 {}; U1 {} to {}; U3 above settled {} to \
+                {}\n",
             self.watched,
             digits(self.settled),
             digits(u.1),

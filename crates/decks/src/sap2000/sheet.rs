@@ -20,6 +20,7 @@ pub(crate) fn sheet(parts: &SapModel) -> String {
         weight(parts),
         history(parts),
         expected(parts),
+        notes(parts),
     ]
     .into_iter()
     .enumerate()
@@ -163,12 +164,7 @@ fn history(parts: &SapModel) -> String {
         .to_string();
     for (what, value) in [
         ("geometry", "P-Delta plus large displacements".to_string()),
-        (
-            "load",
-            "acceleration U1, scale 1, function of the record in m/s2 (from its file, or the \
-             table of the .s2k)"
-                .into(),
-        ),
+        ("load", motions(parts)),
         ("output", format!("{steps} steps of {} s", number(dt))),
         ("damping", "proportional damping 0: mass and stiffness coefficient".into()),
         (
@@ -199,16 +195,60 @@ fn history(parts: &SapModel) -> String {
     text
 }
 
+/// The ground's acceleration, and the files that have it.
+fn motions(parts: &SapModel) -> String {
+    let every = number(parts.record.dt);
+    let across = format!(
+        "acceleration U1, scale 1: function from file ground_motion.txt, one value a line, m/s2, \
+         every {every} s"
+    );
+    match parts.record.vertical {
+        Some(_) => across + "; U3, scale 1: the same from ground_motion_up.txt",
+        None => across,
+    }
+}
+
 fn expected(parts: &SapModel) -> String {
     let [u, v] = parts.peaks;
     let mm = |x: f64| format!("{} mm", significant(1e3 * x, 4));
     format!(
-        "To compare, joint {}, within 1 %: after GRAVITY U3 = {}; in QUAKE U1 from {} to {}, U3 \
-         at most {} above that.\n",
+        "To compare, joint {}: after GRAVITY U3 = {}. In QUAKE an emulation of these steps has U1 \
+         from {} to {}, U3\n   at most {} above that. The screen and report.html of the run have \
+         the answer without springs, up to when\n   a motion can be predicted, and by how much \
+         such steps err.\n",
         parts.watched,
         mm(parts.settled),
         mm(u.1),
         mm(u.0),
         mm(v.0)
     )
+}
+
+/// What a user must know, and would not expect.
+fn notes(parts: &SapModel) -> String {
+    let mut all = vec![
+        "No springs of a soil: these links make the landing what Housner's theory has it.",
+        "The tolerance is loose on purpose: there are steps at whose end neither a foot on the \
+         ground nor\n     one in the air fits its own force, and a tighter test stops there.",
+        "SAP2000's isolator has a shear force that follows its axial force; the tuned model has a \
+         plain\n     spring that lets go when the foot lifts. With this friction they are the same \
+         but in the air.",
+    ];
+    let pair = |i: usize| parts.bars[..i].iter().any(|bar| bar.joints == parts.bars[i].joints);
+    if (0..parts.bars.len()).any(pair) {
+        all.push(
+            "Two frames between the same joints are meant so: the first bears the axial force, the \
+             second\n     the moment and the shear, each with its own damping. A member's forces \
+             are the sum of both.",
+        );
+    }
+    if parts.sections.iter().any(|section| section.ahead > 0.0) {
+        all.push(
+            "VisStiff: stiffness coefficient of the material's viscous proportional damping; a \
+             material for\n     each value. It must not resist a rotation of the whole structure: \
+             compare a free rocking with\n     and without it.",
+        );
+    }
+    let lines: String = all.iter().map(|note| format!("   - {note}\n")).collect();
+    format!("Notes.\n{lines}")
 }

@@ -43,7 +43,7 @@ impl ComparedPeak {
         };
         let small = SMALL * body.half_width;
         vec![
-            Self::new(("top displacement", "m"), &ours.u, &opensees.u, small),
+            Self::new(("displacement of the mass", "m"), &ours.u, &opensees.u, small),
             Self::new(("uplift", "m"), &uplift(ours), &uplift(opensees), small),
             Self::new(("rise of the mass", "m"), &ours.v, &opensees.v, small),
             Self::new(("rotation", "rad"), &ours.theta, &opensees.theta, SMALL),

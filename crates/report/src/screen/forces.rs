@@ -3,6 +3,8 @@
 use super::{WIDTH, lines::wrap};
 use crate::{FiledParameters, Run};
 use files::message::{percent, quantity, significant};
+use frames::structure::ElasticStructure;
+use rocking::structure::Kind;
 use springs::results::{DesignForce, DesignForces, ForceName};
 
 /// Blanks before a cell, and between two.
@@ -15,8 +17,13 @@ pub(super) fn lines(run: &Run) -> Vec<String> {
     let doubted = |one: (ForceName, DesignForce)| one.1.holds && !run.foretells(one);
     let [some, every] = [forces.all().any(doubted), forces.all().all(|one| !run.foretells(one))];
     let mark = if some && !every { "*" } else { "" };
-    let doubt = some.then(|| format!("{mark} not foretold").trim_start().to_string());
-    let notes: Vec<String> = changes(run, forces).into_iter().chain(doubt).collect();
+    let doubt = match run.one_of_many() {
+        true => Some("of this one motion: design by many".to_string()),
+        false => some.then(|| format!("{mark} not predictable").trim_start().to_string()),
+    };
+    let rest = forces.all().any(|(_, force)| force.is_at_rest());
+    let rest = rest.then(|| "own weight: no thrust".to_string());
+    let notes: Vec<String> = changes(run, forces).into_iter().chain(doubt).chain(rest).collect();
     let notes = if notes.is_empty() { String::new() } else { format!(" ({})", notes.join("; ")) };
     let mut lines = Vec::new();
     wrap(&mut lines, "", &format!("design forces{}{notes}", which(run, forces)));
@@ -27,7 +34,7 @@ pub(super) fn lines(run: &Run) -> Vec<String> {
     let cells = |brief: bool| -> Vec<[String; 2]> {
         let cell = |&(name, force): &(ForceName, DesignForce)| {
             let mark = if doubted((name, force)) { mark } else { "" };
-            [short(name).to_string(), value(name, &force, mark, brief)]
+            [short(run, name, &force), value(name, &force, mark, brief)]
         };
         all.iter().map(cell).collect()
     };
@@ -70,8 +77,21 @@ fn order((name, force): (ForceName, DesignForce)) -> f64 {
 }
 
 /// A name without what the report adds to it.
-fn short(name: ForceName) -> &'static str {
-    name.words().trim_end_matches(", footing included")
+fn short(run: &Run, name: ForceName, force: &DesignForce) -> String {
+    let one_sole = match &run.parameters {
+        FiledParameters::Rigid(parameters) => parameters.structure.kind == Kind::Block,
+        FiledParameters::Elastic(parameters) => {
+            matches!(parameters.structure, ElasticStructure::Pier(_))
+        }
+    };
+    match name {
+        ForceName::Axial if force.value.is_some_and(|value| value < 0.0) => {
+            "axial compression".into()
+        }
+        ForceName::SoleShear if one_sole => "shear at the sole".into(),
+        ForceName::SoleShear => "shear, all soles".into(),
+        _ => name.words().into(),
+    }
 }
 
 /// The magnitude, when, and where; what is withheld lies between what was found.

@@ -18,7 +18,6 @@ const LEAST_MESSAGE: usize = 34;
 fn urgency(finding: &Finding) -> usize {
     match finding {
         Finding::IllConditioned { .. } => 0,
-        Finding::Doubt { .. } => 1,
         Finding::VerticalLeftOut { .. } => 2,
         Finding::ForcesHeldInPart { .. } => 3,
         Finding::FeetApart { .. } => 5,
@@ -26,18 +25,34 @@ fn urgency(finding: &Finding) -> usize {
     }
 }
 
+/// Whether it is about what was given, which is told at once.
+pub(super) fn is_doubt(filed: &FiledFinding) -> bool {
+    matches!(filed.finding, Finding::Doubt { .. })
+}
+
 /// A warning, and what to do.
 pub(super) struct Warned {
+    /// What its line begins with.
+    name: &'static str,
     message: String,
     remedy: String,
 }
 
 impl Warned {
+    /// A finding, its message and remedy as sentences.
+    pub(super) fn of(name: &'static str, filed: &FiledFinding) -> Self {
+        Self {
+            name,
+            message: sentence(&filed.message),
+            remedy: filed.remedy.as_ref().map_or(String::new(), |r| format!(" {}", sentence(r))),
+        }
+    }
+
     /// In so many lines: what does not fit is left out of the message, so that the remedy stays,
     /// unless that takes most of them.
-    fn in_lines(&self, most: usize) -> Vec<String> {
+    pub(super) fn in_lines(&self, most: usize) -> Vec<String> {
         let mut all = Vec::new();
-        wrap(&mut all, WARNING, &format!("{}{}", self.message, self.remedy));
+        wrap(&mut all, self.name, &format!("{}{}", self.message, self.remedy));
         if all.len() <= most {
             return all;
         }
@@ -49,12 +64,12 @@ impl Warned {
             let kept = kept.trim_end_matches([',', ';', ':']);
             let enough = kept.chars().count() >= self.remedy.chars().count().min(LEAST_MESSAGE);
             let mut some = Vec::new();
-            wrap(&mut some, WARNING, &format!("{kept} ...{}", self.remedy));
+            wrap(&mut some, self.name, &format!("{kept} ...{}", self.remedy));
             (whole && enough && some.len() <= most).then_some(some)
         });
         short.unwrap_or_else(|| {
             let mut some = Vec::new();
-            at_most(most, &mut some, WARNING, &format!("{}{}", self.message, self.remedy));
+            at_most(most, &mut some, self.name, &format!("{}{}", self.message, self.remedy));
             some
         })
     }
@@ -73,20 +88,19 @@ fn ends_a_part(word: &str) -> bool {
 /// Warnings in words, the gravest first; those of decks last.
 pub(super) fn warnings(run: &Run, of_decks: &[String]) -> Vec<Warned> {
     let mut all: Vec<_> =
-        run.remarks().filter(|finding| finding.weight >= Weight::Warning).collect();
+        run.remarks().filter(|f| f.weight >= Weight::Warning && !is_doubt(f)).collect();
     all.sort_by_key(|filed| (std::cmp::Reverse(filed.weight), urgency(&filed.finding)));
-    let words = |filed: &FiledFinding| Warned {
-        message: sentence(&filed.message),
-        remedy: filed.remedy.as_ref().map_or(String::new(), |r| format!(" {}", sentence(r))),
-    };
     let of_deck = |line: &String| {
         let (message, remedy) = line.split_once(": ").unwrap_or((line, ""));
         let remedy =
             if remedy.is_empty() { String::new() } else { format!(" {}", sentence(remedy)) };
         // a file's name stays as it is
-        Warned { message: format!("{message}."), remedy }
+        Warned { name: WARNING, message: format!("{message}."), remedy }
     };
-    all.into_iter().map(words).chain(of_decks.iter().map(of_deck)).collect()
+    all.into_iter()
+        .map(|filed| Warned::of(WARNING, filed))
+        .chain(of_decks.iter().map(of_deck))
+        .collect()
 }
 
 /// Lines that a warning wants.
@@ -124,8 +138,11 @@ mod tests {
     use super::{super::WIDTH, *};
 
     fn told(warnings: &[usize], taken: usize) -> Vec<String> {
-        let warned =
-            |n: &usize| Warned { message: "a word ".repeat(13 * n - 3), remedy: String::new() };
+        let warned = |n: &usize| Warned {
+            name: WARNING,
+            message: "a word ".repeat(13 * n - 3),
+            remedy: String::new(),
+        };
         let all: Vec<Warned> = warnings.iter().map(warned).collect();
         let mut lines = vec![String::from("x"); taken];
         tell(&all, "report.html", &mut lines);
@@ -134,7 +151,11 @@ mod tests {
 
     #[test]
     fn a_message_gives_way_to_its_remedy() {
-        let warned = Warned { message: "a word ".repeat(30), remedy: " Do this: --that.".into() };
+        let warned = Warned {
+            name: WARNING,
+            message: "a word ".repeat(30),
+            remedy: " Do this: --that.".into(),
+        };
         assert_eq!(warned.in_lines(3).len(), 3);
         for lines in [1, 2] {
             let some = warned.in_lines(lines);
@@ -142,7 +163,11 @@ mod tests {
             assert!(some.iter().all(|line| line.chars().count() <= WIDTH));
         }
         // a remedy that leaves no room for what it is for is cut like the message
-        let long = Warned { message: "a word ".repeat(30), remedy: " many words".repeat(8) };
+        let long = Warned {
+            name: WARNING,
+            message: "a word ".repeat(30),
+            remedy: " many words".repeat(8),
+        };
         assert!(long.in_lines(1)[0].starts_with("warning   a word a word"));
         assert!(long.in_lines(1)[0].ends_with(" ..."));
     }

@@ -27,6 +27,8 @@ pub enum Doubt {
     Tonnes { mass: f64, kg_per_m3: f64 },
     /// A column several times as heavy as the mass that it bears.
     HeavyColumn { column_kg: f64, mass_kg: f64 },
+    /// A height of no structure (m).
+    Height { height_m: f64 },
     /// A mass that is nothing beside the structure's, and so may be in tonnes.
     LightPart { key: &'static str, mass_kg: f64, all_kg: f64 },
     /// A peak ground acceleration beyond all that was recorded.
@@ -57,6 +59,8 @@ const ROOM_M: f64 = 2.5;
 const HEAVY_COLUMN: f64 = 3.0;
 /// Weaker ground motions are not felt (g).
 const LEAST_PGA_G: f64 = 0.005;
+/// No bridge and no chimney is higher, and no body that is looked at is lower (m).
+const HEIGHTS: [f64; 2] = [0.02, 500.0];
 /// Stronger ones were not recorded on the ground (g): horizontally 2.7 g, in Tsukidate in 2011.
 const MOST_PGA_G: f64 = 3.0;
 /// A part of a structure's mass that is nothing beside it: a number in tonnes is a thousandth.
@@ -81,7 +85,7 @@ impl Case {
         let height = if body.kind == Kind::Block { 2.0 * body.height_m } else { body.height_m };
         let density = density(body.mass_kg, [height, body.width_m, body.width_m]);
         let height_or_tonnes = || tonnes(body).or_else(|| total_height(body, &self.given));
-        height_or_tonnes().into_iter().chain(density).collect()
+        of_height(height).into_iter().chain(height_or_tonnes()).chain(density).collect()
     }
 }
 
@@ -109,7 +113,8 @@ impl ElasticCase {
             }
             ElasticStructure::AFrame(_) => None,
         };
-        let all = density(self.structure.mass(), box_m).into_iter().chain(column);
+        let height = of_height(box_m[0]);
+        let all = height.into_iter().chain(density(self.structure.mass(), box_m)).chain(column);
         all.chain(self.light_part()).collect()
     }
 
@@ -169,6 +174,11 @@ fn density(mass_kg: f64, box_m: [f64; 3]) -> Option<Doubt> {
     (!within).then_some(Doubt::Density { kg_per_m3, mass_kg, box_m, least, most })
 }
 
+fn of_height(height_m: f64) -> Option<Doubt> {
+    let [least, most] = HEIGHTS;
+    (!(least..=most).contains(&height_m)).then_some(Doubt::Height { height_m })
+}
+
 fn heavy_column(column_kg: f64, mass_kg: f64) -> Option<Doubt> {
     (column_kg > HEAVY_COLUMN * mass_kg).then_some(Doubt::HeavyColumn { column_kg, mass_kg })
 }
@@ -215,10 +225,10 @@ impl Doubt {
             Self::Density { kg_per_m3, mass_kg, box_m, least, most } => {
                 let [height, width, depth] = box_m.map(figures);
                 format!(
-                    "{} kg in a box of {height} x {width} x {depth} m (as deep as wide) is a mean \
-                        density of {} kg/m3, not within {least} to {most}",
-                    figures(*mass_kg),
-                    figures(*kg_per_m3)
+                    "a mean density of {} kg/m3 is not within {least} to {most}: {} kg in a box of \
+                        {height} x {width} x {depth} m, as deep as wide",
+                    figures(*kg_per_m3),
+                    figures(*mass_kg)
                 )
             }
             Self::Tonnes { mass, kg_per_m3 } => {
@@ -244,6 +254,9 @@ impl Doubt {
                 figures(*peak_g),
                 figures(*horizontal_g)
             ),
+            Self::Height { height_m } => {
+                format!("a structure {} m high is none that was built", figures(*height_m))
+            }
             Self::LightPart { key, mass_kg, all_kg } => format!(
                 "{key} = {} is next to nothing in a structure of {} kg",
                 figures(*mass_kg),
@@ -290,9 +303,8 @@ impl Doubt {
             Self::Tonnes { mass, .. } => {
                 format!("if it is {0} t, write mass_kg = {0}e3", figures(*mass))
             }
-            Self::Density { .. } => {
-                "check the lengths (m), the mass (kg) and their units".to_owned()
-            }
+            Self::Height { .. } => "check its unit (m)".to_owned(),
+            Self::Density { .. } => "check lengths (m) and mass (kg)".to_owned(),
             Self::WeakMotion { least_g, whole_g, .. } if whole_g >= least_g => {
                 "use more of the record (--duration, duration_s)".to_owned()
             }

@@ -10,6 +10,8 @@ pub(super) fn in_plain_words(message: &str, line: &str) -> Option<String> {
     if let Some(variant) = message.strip_prefix("unknown variant `") {
         let (given, known) = variant.split_once("`, expected ")?;
         let known = known.trim_start_matches("one of ").replace('`', "");
+        let solids = if key == "kind" { " (a cabinet, a tank, a column)" } else { "" };
+        let known = known.replace("block", &format!("block{solids}"));
         return Some(format!("{key} is \"{}\"; known are {known}", one_line(given)));
     }
     if let Some((_, wanted)) = message.strip_prefix("invalid type: ")?.split_once(", expected ") {
@@ -34,7 +36,8 @@ pub(super) fn unreadable(message: &str, line: &str) -> Option<String> {
     } else if let Some(share) = value.strip_suffix('%').and_then(|text| number(text.trim())) {
         format!("{key} is {shown}; write it as a share: {}", share / 100.0)
     } else if let Some(x) = number(value) {
-        format!("{key} is {shown}; write {x}")
+        let plain = if x.abs() < 1e15 { x.to_string() } else { format!("{x:e}") };
+        format!("{key} is {shown}; write {plain}")
     } else if digits.starts_with(|c: char| c.is_ascii_digit() || c == '.') {
         format!("{key} is {shown}; write a number alone, with a point: the key names its unit")
     } else if value.starts_with(['"', '\'']) {
@@ -126,7 +129,7 @@ mod tests {
         );
         assert_eq!(
             told("unknown variant `column`, expected `aframe` or `block`", "kind = \"column\""),
-            "kind is \"column\"; known are aframe or block"
+            "kind is \"column\"; known are aframe or block (a cabinet, a tank, a column)"
         );
     }
 }

@@ -48,6 +48,21 @@ fn a_solid_is_known_by_its_density() {
 }
 
 #[test]
+fn heights_in_millimetres_and_masses_in_tonnes_are_doubted() {
+    let high = block("height_m = 2000.0\nwidth_m = 600.0\nmass_kg = 5e11\n");
+    assert!(matches!(high[..], [Doubt::Height { height_m: 4000.0 }]), "{high:?}");
+    let pier = "[structure]\nkind = \"pier\"\nheight_m = 10.0\nwidth_m = 4.0\nmass_kg = 4e5\n\
+        footing_mass_kg = 60.0\nfooting_height_m = 1.0\nfrequency_hz = 2.0\ndamping_ratio = 0.02\n";
+    let light = ElasticCase::parse("pier.toml", pier).unwrap().doubts_of_structure();
+    assert!(matches!(light[..], [Doubt::LightPart { key: "footing_mass_kg", .. }]), "{light:?}");
+    assert_eq!(light[0].remedy(), "if it is 60 t, write footing_mass_kg = 60e3");
+    let told = ElasticCase::parse("pier.toml", &pier.replace("= 60.0", "= 60e3")).unwrap();
+    assert_eq!(told.doubts_of_structure(), []);
+    let strong = Excitation { scale: 9.81, ..Excitation::whole(Record::el_centro()) };
+    assert!(matches!(of_excitation(&strong)[..], [Doubt::StrongMotion { .. }]));
+}
+
+#[test]
 fn densities_of_no_material_are_doubted() {
     let tonnes = block("height_m = 1.0\nwidth_m = 1.0\nmass_kg = 9.0\n");
     let box_m = [2.0, 1.0, 1.0];
@@ -55,8 +70,8 @@ fn densities_of_no_material_are_doubted() {
     assert_eq!(tonnes, [doubt]);
     assert_eq!(
         tonnes[0].message(),
-        "9 kg in a box of 2 x 1 x 1 m (as deep as wide) is a mean density of 4.5 kg/m3, not within \
-            5 to 25000"
+        "a mean density of 4.5 kg/m3 is not within 5 to 25000: 9 kg in a box of 2 x 1 x 1 m, as \
+            deep as wide"
     );
     // 5.05 kg/m3 may be a mass in tonnes, but is within
     assert!(matches!(

@@ -25,7 +25,7 @@ impl Finding {
                 "vary the scale by 1 %, and judge by many records: tune validate"
             }
             Self::PivotLeavesGround { .. } => "compare up to that time only",
-            Self::IllConditioned { .. } => "design by many records: tune sweep",
+            Self::IllConditioned { .. } => "take many records: tune sweep",
             Self::ForetoldUpTo { later_forces, .. } | Self::SlidesOn { later_forces, .. }
                 if !later_forces.is_empty() =>
             {
@@ -76,7 +76,7 @@ impl Finding {
             }
             Self::FeetApart { .. } => "tie the feet, or design for what stays",
             Self::SmallestSteps { .. } => "compare with OpenSees: tune verify",
-            Self::VerticalLeftOut { .. } => "take it: --vertical auto",
+            Self::VerticalLeftOut { .. } => "--vertical auto takes it",
             Self::Doubt { remedy, .. } => return Some(remedy.clone()),
         };
         Some(text.into())

@@ -30,12 +30,12 @@ fn listed(forces: &[ForceName]) -> String {
     }
 }
 
-/// Design forces whose largest value comes after what can be foretold.
-fn later(forces: &[ForceName]) -> String {
+/// Design forces whose largest value comes after what can be predicted, which ends there (s).
+fn later(forces: &[ForceName], time: f64) -> String {
     match forces.len() {
         0 => String::new(),
-        1 => format!("; {} is largest after that", listed(forces)),
-        _ => format!("; {} are largest after that", listed(forces)),
+        1 => format!("{} is largest after {}, unpredictable: ", listed(forces), s(time)),
+        _ => format!("{} are largest after {}, unpredictable: ", listed(forces), s(time)),
     }
 }
 
@@ -167,22 +167,22 @@ impl Finding {
                     ""
                 };
                 format!(
-                    "the motion is ill-conditioned: 0.1 % of the width moves it by {}, so no \
-                        model foretells it to its end{judged}",
+                    "ill-conditioned: 0.1 % more width moves it by {}, so no model predicts its \
+                        end{judged}",
                     percent(*moved_by_width)
                 )
             }
             Self::ForetoldUpTo { time_s, later_forces, .. } => format!(
-                "from t = {} on a change of a millionth grows above a thousandth of the peak: no \
-                    model foretells it{}",
-                s(*time_s),
-                later(later_forces)
+                "{}a change of a millionth grows above a thousandth of the peak after t = {}: no \
+                    model predicts what follows",
+                later(later_forces, *time_s),
+                s(*time_s)
             ),
             Self::SlidesOn { time_s, later_forces, .. } => format!(
-                "at t = {} a corner slides as it lands: how far depends on friction, so no model \
-                    foretells what follows{}",
-                s(*time_s),
-                later(later_forces)
+                "{}a corner slides as it lands at t = {}: how far depends on friction, so no model \
+                    predicts what follows",
+                later(later_forces, *time_s),
+                s(*time_s)
             ),
             Self::NearMotions { motions, change, median_ratio, p90_ratio, overturned } => {
                 let cell = |x: Option<f64>| x.map_or("overturned".into(), percent);
@@ -219,7 +219,7 @@ impl Finding {
             }
             Self::AccuracyNotMeasured => {
                 "the accuracy could not be measured: no motion tried rocks this structure and can \
-                    be foretold"
+                    be predicted"
                     .into()
             }
             Self::RestitutionMissed { asked, lowest, highest, .. } => format!(

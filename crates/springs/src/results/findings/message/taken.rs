@@ -25,11 +25,13 @@ impl Finding {
                 });
                 let changed: Vec<String> = changed.collect();
                 let [vertical, across] = [vertical_g, horizontal_g].map(|g| significant(*g, 3));
-                let with = match changed.is_empty() {
-                    true => String::new(),
-                    false => format!("; with it {}", changed.join(", ")),
-                };
-                format!("vertical motion of {vertical} g beside {across} g is left out{with}")
+                match changed.is_empty() {
+                    true => format!("vertical motion ({vertical} g beside {across} g) is left out"),
+                    false => format!(
+                        "with vertical motion, left out, {} ({vertical} g beside {across} g)",
+                        changed.join(", ")
+                    ),
+                }
             }
             Self::Doubt { message, .. } => message.clone(),
             Self::DeckJudged { judged_s, record_s, end } => {
