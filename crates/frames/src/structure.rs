@@ -54,8 +54,8 @@ pub enum ElasticError {
     )]
     Absurd { name: &'static str, value: f64, least: f64, most: f64 },
     #[error(
-        "structure: {name} is {value:?}; a ratio to critical damping lies between 0 and 0.5: 3 % is \
-        0.03"
+        "structure: {name} is {value:?}; a ratio to critical damping lies between 0 and 0.5: 3 % \
+            is 0.03"
     )]
     Damping { name: &'static str, value: f64 },
     #[error("structure: give one of ei_nm2 and frequency_hz")]
