@@ -199,6 +199,9 @@ fn judged(result: &Verification) -> String {
             result.late
         );
     }
+    if result.swings == [0; 2] {
+        out += "NOTE: what is judged has no swing from foot to foot: no landing is tested\n";
+    }
     out + FORCES
 }
 

@@ -194,6 +194,17 @@ impl Stepped {
     }
 }
 
+/// A rigid body's history on a record as the program that its springs are for would find it.
+///
+/// # Errors
+/// Parameters without springs for such a program.
+pub fn stepped_history(
+    parameters: &Parameters,
+    record: &Record,
+) -> Result<FixedStepHistory, ExportError> {
+    Ok(Stepped::new(parameters, Stepping::Even)?.history(record))
+}
+
 /// A deck for a program with steps of one size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SteppedDeck {

@@ -125,7 +125,10 @@ impl AccuracyReport {
         match (measured.is_empty(), self.reached) {
             (true, _) => self.sentence(),
             (false, true) if of_record && !self.on_record() => {
-                format!("on {}; as asked; this record cannot be compared", measured.join("; "))
+                format!(
+                    "on {}; springs as asked; this record cannot be compared",
+                    measured.join("; ")
+                )
             }
             (false, true) => format!("{}; as asked", measured.join("; ")),
             (false, false) => format!("{}; NOT as asked ({})", measured.join("; "), self.asked()),

@@ -45,7 +45,11 @@ pub fn peak_table(run: &Run) -> Option<Table> {
         Some(_) => "largest, each by itself",
         None => "largest",
     };
-    let mut head = vec![largest.to_string(), reference, "on springs".into(), "difference".into()];
+    let on_springs = match pair.reference_ends_s {
+        Some(_) => "on springs, to the end",
+        None => "on springs",
+    };
+    let mut head = vec![largest.to_string(), reference, on_springs.into(), "difference".into()];
     head.extend(with.map(|_| "with members".into()));
     let row = |(name, of, words): PeakRow| {
         let (a, b) = (of(&pair.reference)?, of(&pair.springs)?);

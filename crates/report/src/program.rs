@@ -77,7 +77,7 @@ impl ProgramReport {
             ProgramSetting::new(
                 "rotational inertia at the mass",
                 value.clone(),
-                format!("inertia {value} (for its steps)"),
+                format!("inertia {value}"),
             )
         });
         Some(Self::new(row, units.into(), inertia, "top"))
@@ -241,7 +241,18 @@ fn errors<U>(row: &ProgramRow<U>, peaks: &str) -> String {
         lost => format!("fails on {lost} of {n} motions"),
     };
     let ninety = ninety.map_or(String::new(), |error| format!(", {} (90 %)", percent(error)));
-    format!("{peaks} within {} (median){ninety}{history}; {lost}", cell(median))
+    let here = row.on_record.and_then(|on| {
+        let ends = on.gives_up_s.map(|s| format!("gives up at {} s", significant(s, 3)));
+        ends.or(on.top.map(|top| format!("top {}", signed(top))))
+    });
+    let here = here.map_or(String::new(), |what| format!("this record: {what}; "));
+    format!("{here}{peaks} within {} (median){ninety}{history}; {lost}", cell(median))
+}
+
+/// A difference with its sign.
+fn signed(share: f64) -> String {
+    let sign = if share > 0.0 && !percent(share).starts_with("below") { "+" } else { "" };
+    format!("{sign}{}", percent(share))
 }
 
 fn table<U>(row: &ProgramRow<U>) -> Table {

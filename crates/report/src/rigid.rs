@@ -83,6 +83,10 @@ impl RigidRun {
         parameters.verdict = Some(both.verdict(&job.body, job.record.dt, &report.conditioning));
         let kind = case.structure.kind;
         parameters.peaks = Some(peaks(kind, &job.body, job.record.dt, &both));
+        let of_steps = program::on_record(&parameters, &job.record, &both);
+        if let Some(row) = &mut parameters.program {
+            row.on_record = of_steps;
+        }
         let softer = softer(&case, &job, &both);
         parameters.design_forces =
             Some(design_forces(kind, &job.body, &job.record, &both, softer.as_ref()));

@@ -68,6 +68,8 @@ pub const EVEN_DECK: &str = "model_even.py";
 pub const SHEET: &str = "sap2000_by_hand.txt";
 /// Letters of a path in a command.
 const LONGEST_PATH: usize = 58;
+/// Lines that a doubt of what was given may take.
+const LONGEST_CHECK: usize = 2;
 /// What a doubt of what was given begins with.
 const CHECK: &str = "CHECK     ";
 /// What the report's line begins with.
@@ -151,7 +153,7 @@ fn taken(run: &Run, written: &Written, most: usize, lines: &mut Vec<String>) {
         at_most(2, lines, "", record.strip_prefix(name).unwrap_or(record));
     }
     for filed in run.remarks().filter(|filed| is_doubt(filed)) {
-        lines.extend(Warned::of(CHECK, filed).in_lines(most));
+        lines.extend(Warned::of(CHECK, filed).in_lines(LONGEST_CHECK));
     }
     let all: Vec<String> =
         run.taken.assumed.iter().map(|a| format!("{} ({})", a.what, a.key)).collect();
@@ -189,7 +191,7 @@ fn springs(run: &Run, lines: &mut Vec<String>) {
             table.rows.push([vec![name], cells.into()].concat());
         }
     };
-    add(steps.as_ref().map(|_| "OpenSees deck"), &run.springs);
+    add(steps.as_ref().map(|_| "OpenSees deck only"), &run.springs);
     let usable = run.program.iter().filter(|program| program.usable);
     usable.for_each(|program| add(steps.as_deref(), &program.units));
     let mut all = table.lines();
@@ -229,8 +231,7 @@ fn next(run: &Run, written: &Written, crowding: Crowding, lines: &mut Vec<String
     match &run.program {
         Some(program) => {
             let typed = both && written.decks && run.sap2000 && program.csi;
-            let sheet =
-                if typed { format!("; to type from: decks/{SHEET}") } else { String::new() };
+            let sheet = if typed { format!("; to type: decks/{SHEET}") } else { String::new() };
             let line = program.line() + &sheet;
             at_most(crowding.program, lines, &format!("{:10}", program.short()), &line);
             if written.decks && program.deck_of_even_steps {

@@ -11,7 +11,7 @@ use crate::{
     tables::csv_row,
     texts::RunTexts,
 };
-use decks::{ACCURACY, DeckFormat, ElasticDeck, ExportError, SteppedDeck, corner_history};
+use decks::{ACCURACY, DeckFormat, ElasticDeck, ExportError, corner_history};
 use dynamics::spring::{Chain, Springs};
 use figures::Figure;
 use frames::{
@@ -41,7 +41,11 @@ use strong_motion::Record;
 mod bearing;
 mod demands;
 mod pictures;
+mod stepped;
 pub mod words;
+
+use stepped::CornerHistory;
+pub use stepped::stepped_deck;
 
 use bearing::ForceQuantities;
 use demands::Instants;
@@ -66,6 +70,8 @@ pub struct ElasticRun {
     friction: f64,
     /// What the structure bears.
     bearing: ForceQuantities,
+    /// Of the program with fixed time steps, by an emulation.
+    program_history: Option<CornerHistory>,
     /// But for the record: where that is to be found depends on the folder.
     pub parameters: ElasticParameters,
 }
@@ -107,24 +113,6 @@ pub fn deck(
     (format, accuracy): (DeckFormat, f64),
 ) -> Result<String, ExportError> {
     deck_of(assembled, (springs, None), record, &history.q, (format, accuracy))
-}
-
-/// The deck for a program with steps of one size, on its springs.
-///
-/// # Errors
-/// As [`deck`]; an integrator that the format has not.
-pub fn stepped_deck(
-    assembled: &Assembled,
-    program: &ProgramRow<CornerUnits>,
-    record: &Record,
-    format: DeckFormat,
-) -> Result<SteppedDeck, ExportError> {
-    let (history, gives_up_s) = corner_history(&assembled.frame, program, record)?;
-    let springs = (&program.units.chains()[..], Some(program));
-    Ok(SteppedDeck {
-        text: deck_of(assembled, springs, record, &history, (format, ACCURACY))?,
-        gives_up_s,
-    })
 }
 
 fn deck_of(
@@ -204,9 +192,25 @@ impl ElasticRun {
         {
             errors.peaks = errors.peaks.map(|peaks| peaks.with_forces(answer.design.error()));
         }
-        let mut run =
-            Self { case, assembled, tuned, record, answer, friction, bearing, parameters };
+        let row = parameters.program.as_ref();
+        let program_history =
+            row.and_then(|row| corner_history(&assembled.frame, row, &record).ok());
+        let mut run = Self {
+            case,
+            assembled,
+            tuned,
+            record,
+            answer,
+            friction,
+            bearing,
+            program_history,
+            parameters,
+        };
         run.parameters.peaks = Some(run.parts().peaks());
+        let on_record = run.program_on_record();
+        if let Some(row) = &mut run.parameters.program {
+            row.on_record = on_record;
+        }
         run.parameters.design_forces =
             Some(design_forces(&run.assembled.structure, &run.answer.design));
         run.parameters.findings = filed(run.parts().findings(&run.parameters));
@@ -266,7 +270,7 @@ impl ElasticRun {
         let decks = models::decks(|format| self.deck(format))?;
         let program = self.parameters.program.as_ref();
         let of_steps = |row| {
-            let deck = |format| stepped_deck(&self.assembled, row, &self.record, format);
+            let deck = |format| self.stepped(row, format);
             Ok::<_, FolderError>(models::even_decks(Some(row), deck)?.and(models::sheet(
                 Some(row),
                 &self.record,
@@ -308,7 +312,7 @@ impl ElasticRun {
         // SAP2000 steps alike: the springs for that
         let program = self.parameters.program.as_ref().filter(|row| row.is_csi());
         if let Some(program) = program.filter(|_| format == DeckFormat::Sap2000) {
-            return Ok(stepped_deck(&self.assembled, program, &self.record, format)?.told(SAP2000));
+            return Ok(self.stepped(program, format)?.told(SAP2000));
         }
         let corners = &self.tuned.springs.corners;
         let fem = &self.answer.histories.fem;

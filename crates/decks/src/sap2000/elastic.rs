@@ -114,6 +114,7 @@ impl<'a> SapModel<'a> {
             feet: stands.iter().enumerate().map(foot).collect(),
             units: deck.springs.iter().enumerate().map(unit).collect(),
             watched: top + 1,
+            watched_is: "the top",
             settled: deck.settled(),
             peaks: [0, 1].map(|k| (deck.peak(k, 1.0), deck.peak(k, -1.0))),
             link: LINK_LENGTH * deck.frame.span(),

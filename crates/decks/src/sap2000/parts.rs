@@ -88,8 +88,9 @@ pub(crate) struct SapModel<'a> {
     pub bars: Vec<Bar>,
     pub units: Vec<SpringLinks>,
     pub feet: Vec<FootJoints>,
-    /// Joint whose motion is expected to be this.
+    /// Joint whose motion is expected to be this, and what it is.
     pub watched: usize,
+    pub watched_is: &'static str,
     /// Where it settles (m).
     pub settled: f64,
     /// Its largest and least displacement, sideways and upwards from where it settled (m).
@@ -128,6 +129,7 @@ impl<'a> SapModel<'a> {
                 })
                 .to_vec(),
             watched: 3,
+            watched_is: "the centre of mass",
             settled: e.settled,
             peaks: [e.u, e.v],
             link: LINK_LENGTH * h,

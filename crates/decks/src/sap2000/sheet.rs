@@ -105,7 +105,8 @@ fn frames(parts: &SapModel) -> String {
 fn properties(parts: &SapModel) -> String {
     let mut text =
         "Link properties. Local 1 points up, local 2 along +X; shear distance DJ = 0 and \
-                    no mass for all. P-Delta moments to end I.\n"
+                    no mass for all. P-Delta moments to end I. Effective stiffness: the \
+                    same.\n"
             .to_string();
     text += &head(&["property", "direction", "stiffness", "damping", "type"]);
     for SpringLinks { suffix, springs } in &parts.units {
@@ -212,11 +213,12 @@ fn expected(parts: &SapModel) -> String {
     let [u, v] = parts.peaks;
     let mm = |x: f64| format!("{} mm", significant(1e3 * x, 4));
     format!(
-        "To compare, joint {}: after GRAVITY U3 = {}. In QUAKE an emulation of these steps has U1 \
-         from {} to {}, U3\n   at most {} above that. The screen and report.html of the run have \
-         the answer without springs, up to when\n   a motion can be predicted, and by how much \
-         such steps err.\n",
+        "To compare, joint {}, {}: after GRAVITY U3 = {}. In QUAKE an emulation of these steps \
+         has\n   U1 from {} to {}, U3 at most {} above that. The screen and report.html of the run \
+         have the\n   answer without springs, up to when a motion can be predicted, and by how \
+         much such steps err.\n",
         parts.watched,
+        parts.watched_is,
         mm(parts.settled),
         mm(u.1),
         mm(u.0),
@@ -234,6 +236,12 @@ fn notes(parts: &SapModel) -> String {
          plain\n     spring that lets go when the foot lifts. With this friction they are the same \
          but in the air.",
     ];
+    if parts.units.len() == 1 {
+        all.push(
+            "The inertia R2 at joint 3 belongs to these springs: such steps need some, and a point \
+             mass has\n     none.",
+        );
+    }
     let pair = |i: usize| parts.bars[..i].iter().any(|bar| bar.joints == parts.bars[i].joints);
     if (0..parts.bars.len()).any(pair) {
         all.push(

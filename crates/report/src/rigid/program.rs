@@ -1,13 +1,16 @@
 //! What is to be said of springs for a program with fixed time steps.
 
 use crate::program::lost;
-use fixed_steps::{FixedStepProgram, expected::step_for};
+use fixed_steps::{FixedStepOutcome, FixedStepProgram, GaveUp, expected::step_for};
+use rocking::motion::Motion;
 use springs::{
+    answers::ModelComparison,
     case::{Case, Yardstick},
-    parameters::Parameters,
-    results::Finding,
+    parameters::{Parameters, program::ProgramOnRecord},
+    results::{Finding, Peaks},
     tuning::{fixed_steps::LONGEST, landing_simulation::differs_from_housner},
 };
+use strong_motion::Record;
 
 /// Findings; those of a program that nobody asked for are notes.
 pub(super) fn findings(case: &Case, parameters: &Parameters) -> Vec<Finding> {
@@ -31,4 +34,28 @@ pub(super) fn findings(case: &Case, parameters: &Parameters) -> Vec<Finding> {
         all.push(Finding::ProgramStepForAccuracy { step_s, needed_s, accuracy: accuracy.error });
     }
     all
+}
+
+/// What a program with fixed time steps would find on the record, beside Housner's answer.
+pub(super) fn on_record(
+    parameters: &Parameters,
+    record: &Record,
+    both: &ModelComparison,
+) -> Option<ProgramOnRecord> {
+    parameters.program.as_ref()?;
+    let history = decks::stepped_history(parameters, record).ok()?;
+    let body = parameters.structure.body();
+    let of = |motion: &Motion| {
+        let (theta, u) = (&motion.theta, Some(&motion.u[..]));
+        Peaks::of_rigid(parameters.structure.kind, &body, theta, u, 0).top_displacement_m
+    };
+    let gives_up = match &history.outcome {
+        FixedStepOutcome::GaveUp(GaveUp { time, .. }) => Some(*time),
+        _ => None,
+    };
+    let stands = both.matched.overturned_housner_s.is_none()
+        && both.rocking.left_ground().is_none()
+        && matches!(history.outcome, FixedStepOutcome::Finished);
+    let reference = parameters.peaks.as_ref()?.reference.top_displacement_m;
+    Some(ProgramOnRecord::of(stands.then(|| [of(&history.motion), reference]), gives_up))
 }

@@ -78,6 +78,8 @@ fn order((name, force): (ForceName, DesignForce)) -> f64 {
 
 /// A name without what the report adds to it.
 fn short(run: &Run, name: ForceName, force: &DesignForce) -> String {
+    let block = matches!(&run.parameters, FiledParameters::Rigid(parameters)
+        if parameters.structure.kind == Kind::Block);
     let one_sole = match &run.parameters {
         FiledParameters::Rigid(parameters) => parameters.structure.kind == Kind::Block,
         FiledParameters::Elastic(parameters) => {
@@ -88,6 +90,8 @@ fn short(run: &Run, name: ForceName, force: &DesignForce) -> String {
         ForceName::Axial if force.value.is_some_and(|value| value < 0.0) => {
             "axial compression".into()
         }
+        ForceName::ColumnShear if block => "base shear".into(),
+        ForceName::ColumnBaseMoment if block => "moment at the base".into(),
         ForceName::SoleShear if one_sole => "shear at the sole".into(),
         ForceName::SoleShear => "shear, all soles".into(),
         _ => name.words().into(),

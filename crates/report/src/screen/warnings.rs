@@ -36,6 +36,8 @@ pub(super) struct Warned {
     name: &'static str,
     message: String,
     remedy: String,
+    /// Whether its numbers are not to be cut.
+    whole: bool,
 }
 
 impl Warned {
@@ -45,6 +47,7 @@ impl Warned {
             name,
             message: sentence(&filed.message),
             remedy: filed.remedy.as_ref().map_or(String::new(), |r| format!(" {}", sentence(r))),
+            whole: matches!(filed.finding, Finding::VerticalLeftOut { .. }),
         }
     }
 
@@ -78,9 +81,9 @@ impl Warned {
 /// Whether a message may be cut behind a word: not behind a number without its unit, nor a word
 /// that wants another.
 fn ends_a_part(word: &str) -> bool {
-    const WANTS: [&str; 17] = [
-        "a", "an", "and", "at", "by", "far", "how", "in", "is", "it", "not", "of", "on", "so",
-        "the", "to", "with",
+    const WANTS: [&str; 22] = [
+        "a", "an", "and", "are", "at", "by", "far", "from", "how", "in", "is", "it", "more", "not",
+        "of", "on", "so", "than", "the", "to", "with", "within",
     ];
     !word.ends_with(|c: char| c.is_ascii_digit()) && !WANTS.contains(&word)
 }
@@ -95,7 +98,7 @@ pub(super) fn warnings(run: &Run, of_decks: &[String]) -> Vec<Warned> {
         let remedy =
             if remedy.is_empty() { String::new() } else { format!(" {}", sentence(remedy)) };
         // a file's name stays as it is
-        Warned { name: WARNING, message: format!("{message}."), remedy }
+        Warned { name: WARNING, message: format!("{message}."), remedy, whole: false }
     };
     all.into_iter()
         .map(|filed| Warned::of(WARNING, filed))
@@ -115,9 +118,15 @@ pub(super) fn tell(warnings: &[Warned], place: &str, lines: &mut Vec<String>) {
     let told = warnings.len().min(room);
     let mut given = vec![1; told];
     let mut left = room - told;
+    // first those whose numbers are not to be cut
+    for (given, warning) in given.iter_mut().zip(warnings).filter(|(_, warning)| warning.whole) {
+        let more = (warning_lines(warning) - 1).min(left);
+        *given += more;
+        left -= more;
+    }
     for most in 2..=LONGEST_WARNING {
         for (given, warning) in given.iter_mut().zip(warnings) {
-            if left > 0 && warning_lines(warning) >= most {
+            if left > 0 && *given < most && warning_lines(warning) >= most {
                 *given += 1;
                 left -= 1;
             }

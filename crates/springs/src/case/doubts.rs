@@ -83,7 +83,8 @@ impl Case {
     pub fn doubts_of_structure(&self) -> Vec<Doubt> {
         let body = &self.structure;
         let height = if body.kind == Kind::Block { 2.0 * body.height_m } else { body.height_m };
-        let density = density(body.mass_kg, [height, body.width_m, body.width_m]);
+        let box_m = [height, body.width_m, body.width_m];
+        let density = density(body.mass_kg, box_m, DENSITY[0]);
         let height_or_tonnes = || tonnes(body).or_else(|| total_height(body, &self.given));
         of_height(height).into_iter().chain(height_or_tonnes()).chain(density).collect()
     }
@@ -113,8 +114,14 @@ impl ElasticCase {
             }
             ElasticStructure::AFrame(_) => None,
         };
+        // of concrete or steel, but for a tower on legs that stand wide
+        let least = match &self.structure {
+            ElasticStructure::AFrame(_) => DENSITY[0],
+            ElasticStructure::Pier(_) | ElasticStructure::Frame(_) => LIGHTEST,
+        };
         let height = of_height(box_m[0]);
-        let all = height.into_iter().chain(density(self.structure.mass(), box_m)).chain(column);
+        let all =
+            height.into_iter().chain(density(self.structure.mass(), box_m, least)).chain(column);
         all.chain(self.light_part()).collect()
     }
 
@@ -167,9 +174,9 @@ fn tonnes(body: &Structure) -> Option<Doubt> {
     doubted.then_some(Doubt::Tonnes { mass: body.mass_kg, kg_per_m3 })
 }
 
-fn density(mass_kg: f64, box_m: [f64; 3]) -> Option<Doubt> {
+fn density(mass_kg: f64, box_m: [f64; 3], least: f64) -> Option<Doubt> {
     let kg_per_m3 = mass_kg / box_m.iter().product::<f64>();
-    let [least, most] = DENSITY;
+    let most = DENSITY[1];
     let within = (least..=most).contains(&kg_per_m3);
     (!within).then_some(Doubt::Density { kg_per_m3, mass_kg, box_m, least, most })
 }

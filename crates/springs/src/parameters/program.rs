@@ -106,6 +106,29 @@ pub struct ProgramRow<U> {
     pub stiffer_for_earthquakes: bool,
     /// What they err.
     pub expected: ProgramExpected,
+    /// On the run's record, by an emulation of the program's steps.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub on_record: Option<ProgramOnRecord>,
+}
+
+/// What an emulation of a program finds on a record.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ProgramOnRecord {
+    /// Its largest top displacement over that of the reference, less one; none where one of them
+    /// falls or ends before the record.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub top: Option<f64>,
+    /// When it gives up, if it does (s).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gives_up_s: Option<f64>,
+}
+
+impl ProgramOnRecord {
+    /// From the largest top displacements of a history and of the reference, where both stand.
+    pub fn of(tops: Option<[f64; 2]>, gives_up_s: Option<f64>) -> Self {
+        let top = tops.filter(|[_, reference]| *reference > 0.0 && gives_up_s.is_none());
+        Self { top: top.map(|[found, reference]| found / reference - 1.0), gives_up_s }
+    }
 }
 
 impl<U> ProgramRow<U> {
@@ -130,6 +153,7 @@ impl<U> ProgramRow<U> {
             units,
             stiffer_for_earthquakes: false,
             expected,
+            on_record: None,
         }
     }
 }

@@ -76,7 +76,7 @@ impl Finding {
             }
             Self::FeetApart { .. } => "tie the feet, or design for what stays",
             Self::SmallestSteps { .. } => "compare with OpenSees: tune verify",
-            Self::VerticalLeftOut { .. } => "--vertical auto takes it",
+            Self::VerticalLeftOut { .. } => "take it: --vertical auto",
             Self::Doubt { remedy, .. } => return Some(remedy.clone()),
         };
         Some(text.into())

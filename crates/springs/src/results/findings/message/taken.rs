@@ -6,6 +6,8 @@ use files::message::{quantity, significant};
 /// Quantities that a vertical motion left out changes the most, said in its message; all are in
 /// parameters.json.
 const CHANGES_SAID: usize = 2;
+/// Share below which a quantity is said not to change.
+const LEAST_CHANGE: f64 = 0.01;
 
 impl Finding {
     /// What was taken, and what was not.
@@ -18,17 +20,16 @@ impl Finding {
                 changes.sort_by(|a, b| ratio(b).total_cmp(&ratio(a)));
                 let axial = |c: &PeakChange| c.quantity == ForceName::Axial.words();
                 let said = changes.iter().enumerate();
-                let said = said.filter(|(i, c)| *i < CHANGES_SAID || axial(c)).map(|(_, c)| c);
-                let changed = said.map(|c| {
-                    let [with, without] = [c.with, c.without].map(|x| quantity(x, &c.unit));
-                    format!("{} is {with}, not {without}", c.quantity)
-                });
+                let changes = |c: &PeakChange| (ratio(c) - 1.0).abs() > LEAST_CHANGE;
+                let said = said.filter(|(i, c)| *i < CHANGES_SAID || axial(c));
+                let said = said.map(|(_, c)| c).filter(|c| changes(c));
+                let changed = said.map(|c| format!("{} {}", c.quantity, quantity(c.with, &c.unit)));
                 let changed: Vec<String> = changed.collect();
                 let [vertical, across] = [vertical_g, horizontal_g].map(|g| significant(*g, 3));
                 match changed.is_empty() {
                     true => format!("vertical motion ({vertical} g beside {across} g) is left out"),
                     false => format!(
-                        "with vertical motion, left out, {} ({vertical} g beside {across} g)",
+                        "with the vertical motion that is left out ({vertical} g): {}",
                         changed.join(", ")
                     ),
                 }

@@ -1,0 +1,66 @@
+//! Decks of an elastic structure for programs with steps of one size, and what such steps find.
+
+use super::{ElasticRun, deck_of};
+use decks::{ACCURACY, DeckFormat, ExportError, SteppedDeck, corner_history};
+use frames::assembled::Assembled;
+use springs::parameters::program::{CornerUnits, ProgramOnRecord, ProgramRow};
+use strong_motion::Record;
+
+/// Coordinates at every sample as a program with fixed time steps finds them, and when it gives up
+/// (s).
+pub(super) type CornerHistory = (Vec<Vec<f64>>, Option<f64>);
+
+/// The deck for a program with steps of one size, on its springs.
+///
+/// # Errors
+/// As [`deck`]; an integrator that the format has not.
+pub fn stepped_deck(
+    assembled: &Assembled,
+    program: &ProgramRow<CornerUnits>,
+    record: &Record,
+    format: DeckFormat,
+) -> Result<SteppedDeck, ExportError> {
+    let history = corner_history(&assembled.frame, program, record)?;
+    stepped_deck_of(assembled, program, record, format, &history)
+}
+
+fn stepped_deck_of(
+    assembled: &Assembled,
+    program: &ProgramRow<CornerUnits>,
+    record: &Record,
+    format: DeckFormat,
+    (history, gives_up_s): &CornerHistory,
+) -> Result<SteppedDeck, ExportError> {
+    let springs = (&program.units.chains()[..], Some(program));
+    let text = deck_of(assembled, springs, record, history, (format, ACCURACY))?;
+    Ok(SteppedDeck { text, gives_up_s: *gives_up_s })
+}
+
+impl ElasticRun {
+    /// What a program with fixed time steps would find on the record, beside the reference.
+    pub(super) fn program_on_record(&self) -> Option<ProgramOnRecord> {
+        let (history, gives_up) = self.program_history.as_ref()?;
+        let frame = &self.assembled.frame;
+        let tops = self.assembled.watched.iter().map(|watched| watched.top);
+        let top = |q: &Vec<f64>| {
+            tops.clone().map(|top| frame.displacement(top, q)[0].abs()).fold(0.0, f64::max)
+        };
+        let found = history.iter().map(top).fold(0.0, f64::max);
+        let whole = history.len() == self.record.len()
+            && self.answer.histories.falls(self.assembled.structure.body().alpha()).is_none();
+        let reference = self.parameters.peaks?.reference.top_displacement_m;
+        Some(ProgramOnRecord::of(whole.then_some([found, reference]), *gives_up))
+    }
+
+    /// A deck for a program with fixed time steps.
+    pub(super) fn stepped(
+        &self,
+        row: &ProgramRow<CornerUnits>,
+        format: DeckFormat,
+    ) -> Result<SteppedDeck, ExportError> {
+        match &self.program_history {
+            Some(history) => stepped_deck_of(&self.assembled, row, &self.record, format, history),
+            None => stepped_deck(&self.assembled, row, &self.record, format),
+        }
+    }
+}
