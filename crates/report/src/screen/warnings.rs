@@ -148,6 +148,7 @@ mod tests {
 
     fn told(warnings: &[usize], taken: usize) -> Vec<String> {
         let warned = |n: &usize| Warned {
+            whole: false,
             name: WARNING,
             message: "a word ".repeat(13 * n - 3),
             remedy: String::new(),
@@ -161,6 +162,7 @@ mod tests {
     #[test]
     fn a_message_gives_way_to_its_remedy() {
         let warned = Warned {
+            whole: false,
             name: WARNING,
             message: "a word ".repeat(30),
             remedy: " Do this: --that.".into(),
@@ -173,6 +175,7 @@ mod tests {
         }
         // a remedy that leaves no room for what it is for is cut like the message
         let long = Warned {
+            whole: false,
             name: WARNING,
             message: "a word ".repeat(30),
             remedy: " many words".repeat(8),
