@@ -33,6 +33,8 @@ class Steps:
     DROP = 0.02
     # What a pair may miss while all feet stand and none has risen yet, over `rise`: it dies away.
     STAND = 1e-4
+    # Over the farthest coordinate: a quarter of a digit.
+    ROUNDING = 2.0**-54
 
     def __init__(self, feet, landing, longest, rise, accuracy=0.002):
         fine = min(1.0, math.sqrt(accuracy / 0.002))   # steps err with their square
@@ -44,8 +46,12 @@ class Steps:
         self.strongest = 0.0                  # acceleration of an open foot on long steps, m/s2
         self.highest = rise                   # a foot has come, m
         self.blur = 1e-10 * rise              # of a gap, m: what Newton's iteration leaves of it
+        # Of a gap, m: what rounding leaves of it, three times or more. Over the step it gives the rate, over its square the
+        # acceleration: on stiff springs both are nothing but rounding where steps are short, and tell of no lift.
+        self.rounding = self.ROUNDING * max(abs(x) for node in ops.getNodeTags() for x in ops.nodeCoord(node))
         self.gaps = self.measure()
         self.taken = self.refused = self.late = 0
+        self.last = self.shortest
         self.smallest = math.inf
 
     def measure(self):
@@ -64,7 +70,9 @@ class Steps:
                 pull = max(self.strongest, abs(acceleration), 1e-30)
                 soonest = 2.0 * opening / (math.sqrt(rate * rate + 2.0 * pull * opening) - rate)
             else:
-                # Soonest lift: as the spring now relaxes, and at the rate alone.
+                # Soonest lift: as the spring now relaxes, and at the rate alone, as far as they are more than rounding.
+                rate -= self.rounding / self.last
+                acceleration -= 4.0 * self.rounding / self.last**2
                 soonest = -opening / rate if rate > 0.0 else math.inf
                 root = rate * rate - 2.0 * acceleration * opening
                 if root >= 0.0 and math.sqrt(root) + rate > 0.0:
@@ -101,7 +109,7 @@ class Steps:
         """Two steps of h, at most `size`: TRBDF2 takes one by BDF2 only if it is as long as the one before, to the last digit."""
         states, met, far = [self.gaps], 0, 0
         for _ in range(2):
-            closed = [gap[0] <= 0.0 for gap in self.gaps]
+            before = [gap[0] for gap in self.gaps]
             if ops.analyze(1, h) != 0:
                 # A foot lets go and lands again within the step: Newton's iteration cycles, OpenSees takes the step back.
                 self.refused += 1
@@ -111,8 +119,12 @@ class Steps:
             self.taken += 1
             self.gaps = self.measure()
             states.append(self.gaps)
-            changed = [abs(gap[0]) for was, gap in zip(closed, self.gaps) if was != (gap[0] <= 0.0)]
-            met, far = met + len(changed), far + sum(opening > self.blur for opening in changed)
+            changed = [(was, gap[0]) for was, gap in zip(before, self.gaps) if (was <= 0.0) != (gap[0] <= 0.0)]
+            met += len(changed)
+            # A foot that rounding alone holds down lifts unseen.
+            unseen = 8.0 * self.rounding / self.share
+            far += sum(abs(now) > self.blur and not -unseen < was <= 0.0 for was, now in changed)
+        self.last = h
         if h >= self.shortest or self.refused:  # the very first are tiny
             self.smallest = min(self.smallest, h)
         self.highest = max(self.highest, *(gap[0] for gap in self.gaps))

@@ -31,12 +31,16 @@ namespace eval steps {
     variable drop 0.02
     # What a pair may miss while all feet stand and none has risen yet, over the rise: it dies away.
     variable standShare 1e-4
+    # Over the farthest coordinate: a quarter of a digit.
+    variable roundingShare [expr {pow(2.0, -54)}]
 
     proc start {nodes aLanding aLongest rise {anAccuracy 0.002}} {
-        foreach name {feet longest landing accuracy first shortest share allowed strongest highest blur gaps taken refused late smallest} {
+        foreach name {feet longest landing accuracy first shortest share allowed strongest highest blur gaps taken refused late
+            smallest rounding last} {
             variable $name
         }
         variable start
+        variable roundingShare
         set fine [expr {min(1.0, sqrt($anAccuracy / 0.002))}] ;# steps err with their square
         set feet $nodes
         set longest $aLongest
@@ -49,6 +53,14 @@ namespace eval steps {
         set strongest 0.0 ;# acceleration of an open foot on long steps, m/s2
         set highest $rise ;# a foot has come, m
         set blur [expr {1e-10 * $rise}] ;# of a gap, m: what Newton's iteration leaves of it
+        # Of a gap, m: what rounding leaves of it, three times or more. Over the step it gives the rate, over its square the
+        # acceleration: on stiff springs both are nothing but rounding where steps are short, and tell of no lift.
+        set farthest 0.0
+        foreach node [getNodeTags] {
+            foreach x [nodeCoord $node] { set farthest [expr {max($farthest, abs($x))}] }
+        }
+        set rounding [expr {$roundingShare * $farthest}]
+        set last $shortest
         set gaps [measure]
         set taken 0
         set refused 0
@@ -70,7 +82,7 @@ namespace eval steps {
 
     # Length of the next two steps, s.
     proc size {} {
-        foreach name {longest allowed shortest gaps strongest share} { variable $name }
+        foreach name {longest allowed shortest gaps strongest share rounding last} { variable $name }
         set size [expr {min($longest, $allowed)}]
         if {$size <= $shortest} { return $size }
         foreach gap $gaps {
@@ -80,7 +92,9 @@ namespace eval steps {
                 set pull [expr {max($strongest, abs($acceleration), 1e-30)}]
                 set soonest [expr {2.0 * $opening / (sqrt($rate * $rate + 2.0 * $pull * $opening) - $rate)}]
             } else {
-                # Soonest lift: as the spring now relaxes, and at the rate alone.
+                # Soonest lift: as the spring now relaxes, and at the rate alone, as far as they are more than rounding.
+                set rate [expr {$rate - $rounding / $last}]
+                set acceleration [expr {$acceleration - 4.0 * $rounding / ($last * $last)}]
                 set soonest [expr {$rate > 0.0 ? -$opening / $rate : 1e300}]
                 set root [expr {$rate * $rate - 2.0 * $acceleration * $opening}]
                 if {$root >= 0.0 && sqrt($root) + $rate > 0.0} {
@@ -130,12 +144,12 @@ namespace eval steps {
 
     # Two steps of h, at most `size`: TRBDF2 takes one by BDF2 only if it is as long as the one before, to the last digit.
     proc pair {h size} {
-        foreach name {gaps refused allowed shortest taken smallest late highest blur} { variable $name }
+        foreach name {gaps refused allowed shortest taken smallest late highest blur share rounding last} { variable $name }
         set states [list $gaps]
         set met 0
         set far 0
         for {set k 0} {$k < 2} {incr k} {
-            set last $gaps
+            set before $gaps
             if {[analyze 1 $h] != 0} {
                 # A foot lets go and lands again within the step: Newton's iteration cycles, OpenSees takes the step back.
                 incr refused
@@ -146,13 +160,17 @@ namespace eval steps {
             incr taken
             set gaps [measure]
             lappend states $gaps
-            foreach a $last b $gaps {
-                if {([lindex $a 0] <= 0.0) != ([lindex $b 0] <= 0.0)} {
+            foreach a $before b $gaps {
+                set was [lindex $a 0]
+                if {($was <= 0.0) != ([lindex $b 0] <= 0.0)} {
                     incr met
-                    incr far [expr {abs([lindex $b 0]) > $blur}]
+                    # A foot that rounding alone holds down lifts unseen.
+                    set unseen [expr {8.0 * $rounding / $share}]
+                    incr far [expr {abs([lindex $b 0]) > $blur && !(-$unseen < $was && $was <= 0.0)}]
                 }
             }
         }
+        set last $h
         if {$h >= $shortest || $refused} { set smallest [expr {min($smallest, $h)}] } ;# the very first are tiny
         foreach gap $gaps { set highest [expr {max($highest, [lindex $gap 0])}] }
         if {$met > 0} {

@@ -30,7 +30,7 @@ pub use verdict::{LIMIT, OpenSeesVerdict};
 /// (s).
 const PATIENCE: f64 = 120.0;
 /// Some hundred times what a sample takes.
-const PATIENCE_PER_SAMPLE: f64 = 2.0;
+const PATIENCE_PER_SAMPLE: f64 = 0.5;
 /// Where OpenSees is off, it is asked once more at this share of the accuracy: does it agree with
 /// itself?
 const FINER: f64 = 1.0 / 16.0;
