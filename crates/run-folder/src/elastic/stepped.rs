@@ -13,7 +13,7 @@ pub(super) type CornerHistory = (Vec<Vec<f64>>, Option<f64>);
 /// The deck for a program with steps of one size, on its springs.
 ///
 /// # Errors
-/// As [`deck`]; an integrator that the format has not.
+/// As of a deck whose steps follow touches; an integrator that the format has not.
 pub fn stepped_deck(
     assembled: &Assembled,
     program: &ProgramRow<CornerUnits>,
