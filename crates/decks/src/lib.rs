@@ -40,7 +40,9 @@ use springs::{
     predictability::{simulate, width_sensitivity},
 };
 pub use step_count::deck_steps;
-pub use stepping::{SteppedDeck, Stepping, corner_history, stepped_deck, stepped_history};
+pub use stepping::{
+    SteppedDeck, Stepping, corner_history, even_deck, stepped_deck, stepped_history,
+};
 use strong_motion::Record;
 
 /// The stepping routine of decks for openseespy: `class Steps`, in need of `math`, `sys` and `ops`.

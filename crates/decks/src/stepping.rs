@@ -24,7 +24,10 @@ use springs::{
 };
 use strong_motion::Record;
 
-use crate::{DeckFormat, Expected, ExportError, export_model, model::DeckModel};
+use crate::{
+    DeckFormat, Expected, ExportError, export_model,
+    model::{DeckModel, with_inertia},
+};
 
 /// How a deck steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -159,6 +162,8 @@ impl Stepped {
         let (Some(row), Some(program)) = (&parameters.program, parameters.in_program()) else {
             return Err(ExportError::NoProgram);
         };
+        // as decks hold it
+        let program = Parameters { structure: with_inertia(&program.structure), ..program };
         let touches = if stepping == Stepping::Touches { AT_TOUCHES } else { 1 };
         let mut steps = EvenSteps::new(row, touches)?;
         if touches == 1 {
@@ -174,6 +179,48 @@ impl Stepped {
         let refined = Parameters::new(structure, &springs.units);
         let (vertical, horizontal) = (refined.vertical, refined.horizontal);
         Ok(Self { parameters: Parameters { vertical, horizontal, ..program }, steps })
+    }
+
+    /// The same where a format has words for it.
+    fn for_format(
+        parameters: &Parameters,
+        format: DeckFormat,
+        stepping: Stepping,
+    ) -> Result<Self, ExportError> {
+        let members = parameters.members();
+        for (name, there) in [
+            ("friction", members.friction.is_some()),
+            ("damper", members.damper.is_some()),
+            ("tendon", members.tendon.is_some()),
+        ] {
+            if there {
+                return Err(ExportError::MemberOfSteps { name });
+            }
+        }
+        if stepping == Stepping::Touches && format.is_sap2000() {
+            return Err(ExportError::TouchesInTables);
+        }
+        let stepped = Self::new(parameters, stepping)?;
+        if format.is_sap2000() {
+            stepped.steps.in_tables()?;
+        }
+        Ok(stepped)
+    }
+
+    /// The deck that is to find this history.
+    fn deck(
+        self,
+        record: &Record,
+        format: DeckFormat,
+        FixedStepHistory { motion, outcome, .. }: &FixedStepHistory,
+    ) -> Result<SteppedDeck, ExportError> {
+        let gives_up_s = match outcome {
+            FixedStepOutcome::GaveUp(GaveUp { time, .. }) => Some(*time),
+            _ => None,
+        };
+        let model = DeckModel::new(&self.parameters, record, &self.expected(motion))?;
+        let text = export_model(&DeckModel { even: Some(self.steps), ..model }, format)?;
+        Ok(SteppedDeck { text, gives_up_s })
     }
 
     /// The emulation's history on a record.
@@ -244,31 +291,23 @@ pub fn stepped_deck(
             gives_up_s: None,
         });
     }
-    let members = parameters.members();
-    for (name, there) in [
-        ("friction", members.friction.is_some()),
-        ("damper", members.damper.is_some()),
-        ("tendon", members.tendon.is_some()),
-    ] {
-        if there {
-            return Err(ExportError::MemberOfSteps { name });
-        }
-    }
-    if stepping == Stepping::Touches && format.is_sap2000() {
-        return Err(ExportError::TouchesInTables);
-    }
-    let stepped = Stepped::new(parameters, stepping)?;
-    if format.is_sap2000() {
-        stepped.steps.in_tables()?;
-    }
-    let FixedStepHistory { motion, outcome, .. } = stepped.history(record);
-    let gives_up_s = match outcome {
-        FixedStepOutcome::GaveUp(GaveUp { time, .. }) => Some(time),
-        _ => None,
-    };
-    let model = DeckModel::new(&stepped.parameters, record, &stepped.expected(&motion))?;
-    let text = export_model(&DeckModel { even: Some(stepped.steps), ..model }, format)?;
-    Ok(SteppedDeck { text, gives_up_s })
+    let stepped = Stepped::for_format(parameters, format, stepping)?;
+    let history = stepped.history(record);
+    stepped.deck(record, format, &history)
+}
+
+/// The same with steps of one size throughout, of a body whose history is there
+/// ([`stepped_history`]).
+///
+/// # Errors
+/// As [`stepped_deck`].
+pub fn even_deck(
+    parameters: &Parameters,
+    record: &Record,
+    format: DeckFormat,
+    history: &FixedStepHistory,
+) -> Result<SteppedDeck, ExportError> {
+    Stepped::for_format(parameters, format, Stepping::Even)?.deck(record, format, history)
 }
 
 /// An elastic structure on its springs for a program with steps of one size, emulated through a

@@ -12,13 +12,14 @@ use super::{
     stiffness_tradeoff::TradeoffPoint,
     unit_of,
 };
-use decks::equal_steps;
+use decks::{equal_steps, stepped_history};
 use dynamics::{
     compare::Match,
     fem::History,
     spring::{Design, Springs},
 };
 use files::message::{percent, quantity, significant};
+use fixed_steps::FixedStepHistory;
 use limits::springs_findings;
 use rocking::{
     members::Members,
@@ -46,6 +47,8 @@ pub struct RigidRun {
     pub both: ModelComparison,
     /// Conditioning and regime.
     pub report: HousnerReport,
+    /// On the springs for a program with fixed time steps, as that would find it.
+    pub of_steps: Option<FixedStepHistory>,
     /// What `parameters.json` holds, but for the record: where that is to be found depends on the
     /// folder.
     pub parameters: Parameters,
@@ -83,14 +86,17 @@ impl RigidRun {
         parameters.verdict = Some(both.verdict(&job.body, job.record.dt, &report.conditioning));
         let kind = case.structure.kind;
         parameters.peaks = Some(peaks(kind, &job.body, job.record.dt, &both));
-        let of_steps = program::on_record(&parameters, &job.record, &both);
+        let of_steps = parameters.program.as_ref();
+        let of_steps = of_steps.and_then(|_| stepped_history(&parameters, &job.record).ok());
+        let on_record =
+            of_steps.as_ref().and_then(|history| program::on_record(&parameters, history, &both));
         if let Some(row) = &mut parameters.program {
-            row.on_record = of_steps;
+            row.on_record = on_record;
         }
         let softer = softer(&case, &job, &both);
         parameters.design_forces =
             Some(design_forces(kind, &job.body, &job.record, &both, softer.as_ref()));
-        let mut run = Self { case, job, front, both, report, parameters };
+        let mut run = Self { case, job, front, both, report, of_steps, parameters };
         run.parameters.findings = filed(run.findings());
         run
     }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use decks::{DeckFormat, Expected, Stepping, with_inertia};
+use decks::{DeckFormat, Expected, ExportError, with_inertia};
 use figures::Figure;
 use report::{
     Run,
@@ -12,11 +12,9 @@ use report::{
     summary,
 };
 use springs::{
-    answers::ModelComparison,
     parameters::{Parameters, RecordRow},
     predictability::{simulate, width_sensitivity},
 };
-use strong_motion::Record;
 
 use crate::{
     FolderError,
@@ -75,13 +73,12 @@ pub fn save(rigid: &RigidRun, out: &Path, output: Output) -> Result<Vec<String>,
     let parts: [&dyn std::fmt::Debug; 3] =
         [&rigid.parameters, &excitation.record.fingerprint(), &asked];
     let folder = Folder::begin(out, "run", &files, identity(&parts))?;
-    let RigidRun { job, both, .. } = rigid;
     let parameters = filed(rigid, out);
     let run = rigid.said(parameters.clone());
     let out = folder.path();
     tables(rigid, &parameters, &run).write(out)?;
     let written = || {
-        let decks = run_decks(&parameters, &job.record, both)?;
+        let decks = run_decks(&parameters, rigid)?;
         decks.write(out).map(|()| decks.left_out)
     };
     let (left_out, pictures) = rayon::join(written, || draw(rigid, out, &run, output));
@@ -100,7 +97,7 @@ pub fn texts(rigid: &RigidRun, out: &Path) -> Result<RunTexts, FolderError> {
     let parameters = filed(rigid, out);
     let run = rigid.said(parameters.clone());
     let mut texts = tables(rigid, &parameters, &run);
-    let decks = run_decks(&parameters, &rigid.job.record, &rigid.both)?;
+    let decks = run_decks(&parameters, rigid)?;
     texts.files.push(("report.html".into(), page(&run, &[])));
     texts.files.extend(decks.files);
     Ok(RunTexts { left_out: decks.left_out, ..texts })
@@ -164,11 +161,9 @@ pub(crate) fn drawing(figure: &Figure) -> Drawing<'_> {
 
 /// The model for other programs. A body without rotational inertia gets some there, and its own
 /// history to check against.
-fn run_decks(
-    parameters: &Parameters,
-    record: &Record,
-    both: &ModelComparison,
-) -> Result<RunTexts, FolderError> {
+fn run_decks(parameters: &Parameters, rigid: &RigidRun) -> Result<RunTexts, FolderError> {
+    let RigidRun { job, both, of_steps, .. } = rigid;
+    let record = &job.record;
     let structure = with_inertia(&parameters.structure);
     let given = structure == parameters.structure;
     let parameters = Parameters { structure, ..parameters.clone() };
@@ -177,23 +172,22 @@ fn run_decks(
         own.as_ref().unwrap_or_else(|| both.with.as_ref().map_or(&both.fem, |with| &with.history));
     let width_sensitivity = width_sensitivity(&history.motion, &parameters, record);
     let expected = Expected::new(history, width_sensitivity);
+    let stepped = |format: DeckFormat| match of_steps {
+        Some(history) => decks::even_deck(&parameters, record, format, history),
+        None => Err(ExportError::NoProgram),
+    };
     // SAP2000 steps alike: the springs for that, if there are some
     let for_its_steps = |format: DeckFormat| {
         let program = parameters.program.as_ref().filter(|_| format == DeckFormat::Sap2000)?;
-        program.is_csi().then(|| {
-            Ok(decks::stepped_deck(&parameters, record, format, Stepping::Even)?.told(SAP2000))
-        })
+        program.is_csi().then(|| Ok(stepped(format)?.told(SAP2000)))
     };
     let all = models::decks(|format| {
         let plain = || Ok((decks::export(&parameters, record, &expected, format)?, None));
         for_its_steps(format).unwrap_or_else(plain)
     })?;
-    let even = models::even_decks(parameters.program.as_ref(), |format| {
-        decks::stepped_deck(&parameters, record, format, Stepping::Even)
-    })?;
-    let sheet = models::sheet(parameters.program.as_ref(), record, |format| {
-        decks::stepped_deck(&parameters, record, format, Stepping::Even)
-    })?;
+    let program = parameters.program.as_ref();
+    let even = models::even_decks(program, stepped)?;
+    let sheet = models::sheet(program, record, stepped)?;
     Ok(all.and(even).and(sheet))
 }
 

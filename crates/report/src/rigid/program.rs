@@ -1,7 +1,9 @@
 //! What is to be said of springs for a program with fixed time steps.
 
 use crate::program::lost;
-use fixed_steps::{FixedStepOutcome, FixedStepProgram, GaveUp, expected::step_for};
+use fixed_steps::{
+    FixedStepHistory, FixedStepOutcome, FixedStepProgram, GaveUp, expected::step_for,
+};
 use rocking::motion::Motion;
 use springs::{
     answers::ModelComparison,
@@ -10,7 +12,6 @@ use springs::{
     results::{Finding, Peaks},
     tuning::{fixed_steps::LONGEST, landing_simulation::differs_from_housner},
 };
-use strong_motion::Record;
 
 /// Findings; those of a program that nobody asked for are notes.
 pub(super) fn findings(case: &Case, parameters: &Parameters) -> Vec<Finding> {
@@ -39,11 +40,9 @@ pub(super) fn findings(case: &Case, parameters: &Parameters) -> Vec<Finding> {
 /// What a program with fixed time steps would find on the record, beside Housner's answer.
 pub(super) fn on_record(
     parameters: &Parameters,
-    record: &Record,
+    history: &FixedStepHistory,
     both: &ModelComparison,
 ) -> Option<ProgramOnRecord> {
-    parameters.program.as_ref()?;
-    let history = decks::stepped_history(parameters, record).ok()?;
     let body = parameters.structure.body();
     let of = |motion: &Motion| {
         let (theta, u) = (&motion.theta, Some(&motion.u[..]));
