@@ -40,7 +40,7 @@ use springs::{
     parameters::{Parameters, elastic::ElasticParameters},
     results::{
         DeckEnd, DesignForce, DesignForces, FiledFinding, Finding, FindingModel, ForceName,
-        PeakChange, PeakPair, Weight,
+        PeakChange, PeakPair, Weight, apart_words,
     },
 };
 pub use table::Table;
@@ -258,10 +258,7 @@ impl Run {
             Finding::FeetApart { apart_m } => Some(apart_m),
             _ => None,
         });
-        apart.map_or(String::new(), |apart| {
-            let way = if apart > 0.0 { "further apart" } else { "closer together" };
-            format!("; its feet end {} {way}", files::message::quantity(apart.abs(), "m"))
-        })
+        apart.map_or(String::new(), |apart| format!("; its feet end {}", apart_words(apart)))
     }
 
     /// Whether the motion is one of many that the record might as well have made.

@@ -26,35 +26,31 @@ struct Crowding {
     accuracy: usize,
     measured: usize,
     /// Lines of the verdict, and of the program with fixed time steps.
-    program: usize,
+    sentence: usize,
     /// Whether the deck's own command stands beside that which checks it.
     both_commands: bool,
 }
 
+/// All that there is room for.
+const SPACIOUS: Crowding = Crowding {
+    empty_line: true,
+    assumed: 2,
+    accuracy: 2,
+    measured: 2,
+    sentence: 3,
+    both_commands: true,
+};
+
 /// The first in which every warning has its room is taken, else the last.
 const CROWDING: [Crowding; 3] = [
-    Crowding {
-        empty_line: true,
-        assumed: 2,
-        accuracy: 2,
-        measured: 2,
-        program: 3,
-        both_commands: true,
-    },
-    Crowding {
-        empty_line: false,
-        assumed: 2,
-        accuracy: 2,
-        measured: 2,
-        program: 3,
-        both_commands: true,
-    },
+    SPACIOUS,
+    Crowding { empty_line: false, ..SPACIOUS },
     Crowding {
         empty_line: false,
         assumed: 1,
         accuracy: 1,
         measured: 1,
-        program: 2,
+        sentence: 2,
         both_commands: false,
     },
 ];
@@ -128,7 +124,7 @@ fn answer(run: &Run, written: &Written, crowding: Crowding) -> Vec<String> {
     if crowding.empty_line {
         lines.push(String::new());
     }
-    at_most(crowding.program, &mut lines, "", &run.verdict());
+    at_most(crowding.sentence, &mut lines, "", &run.verdict());
     lines.extend(peak_table(run).iter().flat_map(Table::lines));
     lines.extend(forces::lines(run));
     springs(run, &mut lines);
@@ -233,7 +229,7 @@ fn next(run: &Run, written: &Written, crowding: Crowding, lines: &mut Vec<String
             let typed = both && written.decks && run.sap2000 && program.csi;
             let sheet = if typed { format!("; to type: decks/{SHEET}") } else { String::new() };
             let line = program.line() + &sheet;
-            at_most(crowding.program, lines, &format!("{:10}", program.short()), &line);
+            at_most(crowding.sentence, lines, &format!("{:10}", program.short()), &line);
             if written.decks && program.deck_of_even_steps {
                 let deck = format!("python3 {}", written.file(&format!("decks/{EVEN_DECK}")));
                 wrap(lines, "its deck  ", &deck);

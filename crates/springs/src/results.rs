@@ -7,6 +7,7 @@ pub mod peaks;
 
 pub use findings::{
     DeckEnd, Ending, FiledFinding, Finding, FindingModel, ForceName, NotDone, PeakChange, Weight,
+    apart_words,
 };
 pub use forces::{DesignForce, DesignForces};
 pub use frames::design_forces::{ForcesTogether, MOST_CHANGE, OtherForces};

@@ -16,7 +16,8 @@ pub(super) fn lines(run: &Run) -> Vec<String> {
     // an asterisk where some are, a word where all are
     let doubted = |one: (ForceName, DesignForce)| one.1.holds && !run.foretells(one);
     let [some, every] = [forces.all().any(doubted), forces.all().all(|one| !run.foretells(one))];
-    let mark = if some && !every { "*" } else { "" };
+    // of one motion of many the head tells of all
+    let mark = if some && !every && !run.one_of_many() { "*" } else { "" };
     let doubt = match run.one_of_many() {
         true => Some("of this one motion: design by many".to_string()),
         false => some.then(|| format!("{mark} not predictable").trim_start().to_string()),
@@ -80,19 +81,15 @@ fn order((name, force): (ForceName, DesignForce)) -> f64 {
 fn short(run: &Run, name: ForceName, force: &DesignForce) -> String {
     let block = matches!(&run.parameters, FiledParameters::Rigid(parameters)
         if parameters.structure.kind == Kind::Block);
-    let one_sole = match &run.parameters {
-        FiledParameters::Rigid(parameters) => parameters.structure.kind == Kind::Block,
-        FiledParameters::Elastic(parameters) => {
-            matches!(parameters.structure, ElasticStructure::Pier(_))
-        }
-    };
+    let pier = matches!(&run.parameters, FiledParameters::Elastic(parameters)
+        if matches!(parameters.structure, ElasticStructure::Pier(_)));
     match name {
         ForceName::Axial if force.value.is_some_and(|value| value < 0.0) => {
             "axial compression".into()
         }
         ForceName::ColumnShear if block => "base shear".into(),
         ForceName::ColumnBaseMoment if block => "moment at the base".into(),
-        ForceName::SoleShear if one_sole => "shear at the sole".into(),
+        ForceName::SoleShear if block || pier => "shear at the sole".into(),
         ForceName::SoleShear => "shear, all soles".into(),
         _ => name.words().into(),
     }

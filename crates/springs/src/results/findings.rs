@@ -9,6 +9,7 @@ mod advice;
 mod message;
 mod not_done;
 
+pub use message::apart_words;
 pub use not_done::NotDone;
 
 /// How much a finding weighs.

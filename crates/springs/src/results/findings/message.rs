@@ -21,6 +21,12 @@ fn s(time: f64) -> String {
     format!("{} s", significant(time, 4))
 }
 
+/// How much further apart feet are (m).
+pub fn apart_words(apart_m: f64) -> String {
+    let way = if apart_m > 0.0 { "further apart" } else { "closer together" };
+    format!("{} {way}", quantity(apart_m.abs(), "m"))
+}
+
 /// Names of forces in a sentence.
 fn listed(forces: &[ForceName]) -> String {
     let names: Vec<&str> = forces.iter().map(|force| force.words()).collect();
@@ -374,9 +380,8 @@ impl Finding {
                 format!("the history {} ends at t = {}: {why}", on(*model), s(*time_s))
             }
             Self::FeetApart { apart_m } => format!(
-                "at the end the feet stand {} {} than at first: friction keeps the structure bent",
-                quantity(apart_m.abs(), "m"),
-                if *apart_m > 0.0 { "further apart" } else { "closer together" }
+                "at the end the feet stand {} than at first: friction keeps the structure bent",
+                apart_words(*apart_m)
             ),
             Self::SmallestSteps { model, steps } => {
                 format!(
