@@ -74,6 +74,8 @@ pub(crate) struct EvenSteps {
     pub newton: usize,
     /// Unbalance over weight below which they have arrived, where the program tests that.
     pub unbalance: Option<f64>,
+    /// Of the motions that the run tried, those that the program loses, if that is half or more.
+    pub lost: Option<(usize, usize)>,
 }
 
 impl EvenSteps {
@@ -93,6 +95,7 @@ impl EvenSteps {
             touches,
             newton: row.newton_iterations,
             unbalance,
+            lost: row.mostly_lost(),
         })
     }
 

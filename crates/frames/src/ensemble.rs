@@ -98,17 +98,24 @@ impl Ensemble {
             );
             [reference, fem]
         };
-        let all: Vec<[Near; 2]> = (0..MOTIONS).into_par_iter().with_max_len(1).map(both).collect();
+        // where the outermost two are out of work, so are those between
+        let (first, last) = rayon::join(|| both(0), || both(MOTIONS - 1));
+        let out_of_work =
+            |pair: &[Near; 2]| pair.iter().any(|near| matches!(near, Near::OutOfWork));
+        if out_of_work(&first) && out_of_work(&last) {
+            return Ok((None, MOTIONS));
+        }
+        let between = (1..MOTIONS - 1).into_par_iter().with_max_len(1).map(both);
+        let mut all = vec![first];
+        all.extend(between.collect::<Vec<_>>());
+        all.push(last);
         let followed = |pair: &[Near; 2]| match pair {
             [Near::Peaks(reference), Near::Peaks(fem)] => Some([*reference, *fem]),
             _ => None,
         };
         let pairs: Vec<[Largest; 2]> = all.iter().filter_map(followed).collect();
-        let out_of_work = all
-            .iter()
-            .filter(|pair| pair.iter().any(|near| matches!(near, Near::OutOfWork)))
-            .count();
-        Ok((Self::of(&pairs), out_of_work))
+        let left_out = all.iter().filter(|&pair| out_of_work(pair)).count();
+        Ok((Self::of(&pairs), left_out))
     }
 
     /// Of the peaks on rigid ground and on springs; none if there are none.

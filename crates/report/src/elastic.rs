@@ -163,7 +163,9 @@ impl ElasticParts<'_> {
             let alpha = self.assembled.structure.body().alpha();
             all.extend(on.near.iter().map(|near| nearby(near, alpha)));
             let motions = self.answer.near_left_out;
-            all.extend((motions > 0).then_some(Finding::NearMotionsLeftOut { motions }));
+            let none = self.answer.ensemble.is_none();
+            let left_out = Finding::NearMotionsLeftOut { motions, all: none };
+            all.extend((motions > 0).then_some(left_out));
         }
         let needed = self.friction_needed();
         all.extend((needed.value > self.friction).then_some(Finding::Sliding {
@@ -224,8 +226,8 @@ impl ElasticParts<'_> {
     }
 
     fn what_it_does(&self, on: &OnRecord) -> Vec<Finding> {
-        let history = &self.answer.histories.reference.history;
-        let fem = self.answer.histories.fem.outcome;
+        let ElasticHistories { reference, fem, sways } = &self.answer.histories;
+        let (history, fem) = (&reference.history, fem.outcome);
         let mut all = Vec::new();
         let fell = |outcome: HistoryOutcome| match outcome {
             HistoryOutcome::Overturned { time } => Some(time),
@@ -249,6 +251,7 @@ impl ElasticParts<'_> {
                 share_of_overturning: on.peak_ratio_fem,
                 reference_share: Some(on.peak_ratio_reference),
                 over_s: on.compared_s,
+                largest_at_s: Some(self.record.dt * largest_at(sways) as f64),
                 if_feet_hold: false,
                 of_columns: matches!(self.assembled.structure, ElasticStructure::Frame(_)),
             },
@@ -353,6 +356,12 @@ fn nearby(near: &Ensemble, alpha: f64) -> Finding {
         p90_ratio: ratio(near.rotation_rad.p90),
         overturned: near.overturned,
     }
+}
+
+/// Sample of the largest rotation on springs.
+fn largest_at(sways: &[[Sway; 2]]) -> usize {
+    let all = sways.iter().flat_map(|[_, springs]| springs.rotation.iter().enumerate());
+    all.max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs())).map_or(0, |(i, _)| i)
 }
 
 /// Largest magnitude of a series of every base.

@@ -280,7 +280,15 @@ impl Run {
             _ => None,
         });
         if let Some(until) = until {
-            return format!("; predictable to {} s", files::message::significant(until, 4));
+            let s = |time: f64| files::message::significant(time, 4);
+            let later = self.findings.iter().find_map(|filed| match filed.finding {
+                Finding::Stands { largest_at_s, .. } => largest_at_s.filter(|&time| time > until),
+                _ => None,
+            });
+            let later = later.map_or(String::new(), |time| {
+                format!(", but largest at {} s: one motion of many", s(time))
+            });
+            return format!("; predictable to {} s{later}", s(until));
         }
         let in_part = any(|f| match f {
             Finding::DeckJudged { end, .. } => *end != DeckEnd::Record,

@@ -139,7 +139,7 @@ impl ProgramReport {
             errors: errors(row, peaks),
             units,
             table: table(row),
-            usable: measured_on(row).is_none_or(|errors| errors.peak[0].is_some()),
+            usable: row.mostly_lost().is_none(),
             deck_of_even_steps: row.is_opensees_even(),
             csi: row.is_csi(),
             stiffer: row.stiffer_for_earthquakes.then_some(
@@ -158,7 +158,10 @@ impl ProgramReport {
     /// For a screen: no settings of springs that are not to be used.
     pub(crate) fn line(&self) -> String {
         if !self.usable {
-            return format!("{} steps: {}; give a shorter --step", self.steps, self.errors);
+            return format!(
+                "{} steps: {}; try another --step, longer ones too",
+                self.steps, self.errors
+            );
         }
         let set_to: Vec<String> =
             self.set_to.iter().map(|s| s.short.clone()).filter(|short| !short.is_empty()).collect();
@@ -218,14 +221,9 @@ pub(crate) fn lost<U>(row: &ProgramRow<U>, asked: bool) -> Option<Finding> {
     many.then_some(Finding::ProgramLoses { program, step_s, lost, histories, csi, asked })
 }
 
-/// What is said of the springs: on synthetic motions, else on those like earthquakes.
-fn measured_on<U>(row: &ProgramRow<U>) -> Option<ProgramErrors> {
-    row.expected.synthetic.or(row.expected.earthquakes)
-}
-
 /// Largest displacement first: median and what 90 % are below.
 fn errors<U>(row: &ProgramRow<U>, peaks: &str) -> String {
-    let Some(errors) = measured_on(row) else {
+    let Some(errors) = row.measured() else {
         return "errors not measured".into();
     };
     let cell = |x: Option<f64>| x.map_or("lost".into(), percent);
@@ -233,8 +231,8 @@ fn errors<U>(row: &ProgramRow<U>, peaks: &str) -> String {
     let [nrmse, _] = errors.history;
     let history = nrmse.map_or(String::new(), |x| format!(", NRMSE {}", significant(x, 2)));
     let n = errors.histories;
-    if median.is_none() {
-        return format!("NOT to be used: fails on {} of {n} motions", errors.lost);
+    if let Some((lost, all)) = row.mostly_lost() {
+        return format!("NOT to be used: fails on {lost} of {all} motions");
     }
     let lost = match errors.lost {
         0 => format!("on {n} motions"),

@@ -129,6 +129,7 @@ pub(crate) fn verdict(structure: &Structure, record: &Record, verdict: &Verdict)
             share_of_overturning: finite_elements.peak_ratio,
             reference_share: (housner.fate == Fate::Rocked).then_some(housner.peak_ratio),
             over_s: verdict.compared_s,
+            largest_at_s: None,
             if_feet_hold: false,
             of_columns: false,
         },

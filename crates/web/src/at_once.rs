@@ -144,6 +144,7 @@ fn what_it_does(
             share_of_overturning: largest / alpha,
             reference_share: None,
             over_s: record.duration(),
+            largest_at_s: None,
             if_feet_hold: false,
             of_columns: false,
         },

@@ -12,6 +12,12 @@ const COLUMN: usize = 13;
 /// The sheet.
 pub(crate) fn sheet(parts: &SapModel) -> String {
     let mut text = format!("{}\nTo type into SAP2000 or ETABS. Units: kN, m, t, s.\n", parts.title);
+    if let Some((lost, all)) = parts.even.and_then(|even| even.lost) {
+        let _ = writeln!(
+            text,
+            "NOT to be used: such steps lose {lost} of {all} motions. Try another --step, longer ones too."
+        );
+    }
     for (number, part) in [
         joints(parts),
         frames(parts),
@@ -158,6 +164,15 @@ fn history(parts: &SapModel) -> String {
     let settings = CaseSettings::of(parts.even);
     let steps = parts.samples.saturating_sub(1);
     let dt = parts.record.dt;
+    let whole = parts.record.len().saturating_sub(1);
+    let end = match steps < whole {
+        true => format!(
+            ": to {} s of the record's {} s, where the emulation of these steps ends",
+            number(steps as f64 * dt),
+            number(whole as f64 * dt)
+        ),
+        false => String::new(),
+    };
     let short = |digits: &str| digits.parse().map_or_else(|_| digits.to_string(), number);
     let [gamma, beta, alpha] = settings.constants().map(number);
     let mut text = "Load case QUAKE: nonlinear direct integration history that continues from \
@@ -166,7 +181,7 @@ fn history(parts: &SapModel) -> String {
     for (what, value) in [
         ("geometry", "P-Delta plus large displacements".to_string()),
         ("load", motions(parts)),
-        ("output", format!("{steps} steps of {} s", number(dt))),
+        ("output", format!("{steps} steps of {} s{end}", number(dt))),
         ("damping", "proportional damping 0: mass and stiffness coefficient".into()),
         (
             "integration",

@@ -111,9 +111,11 @@ fn value(name: ForceName, force: &DesignForce, mark: &str, brief: bool) -> Strin
     };
     let up = force.above_base_m.filter(|above| *above > 0.0 && !brief);
     let up = up.map_or(String::new(), |above| format!(", {} m up", significant(above, 3)));
-    let part = force.over_s.filter(|_| !brief);
-    let part = part.map_or(String::new(), |over| format!(" (first {} s)", significant(over, 3)));
-    format!("{}{mark}{when}{up}{part}", newtons(largest))
+    let whole = force.over_s.and(force.whole_record);
+    if let Some(whole) = whole {
+        return format!("{}{mark}; over all {}", newtons(largest), newtons(whole.found));
+    }
+    format!("{}{mark}{when}{up}", newtons(largest))
 }
 
 /// Two cells to a line, names and values below each other; none if a line would be too long.

@@ -3,6 +3,7 @@
 
 use report::screen::{Written, screen};
 use springs::{case::Case, tuning::job::Job};
+use strong_motion::Record;
 use strong_motion::excitation::Excitation;
 
 use super::*;

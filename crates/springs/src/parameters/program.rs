@@ -221,6 +221,17 @@ impl<U> ProgramRow<U> {
         matches!(self.known(), Some(ProgramName::OpenSees))
     }
 
+    /// What is said of the springs: on synthetic motions, else on those like earthquakes.
+    pub fn measured(&self) -> Option<ProgramErrors> {
+        self.expected.synthetic.or(self.expected.earthquakes)
+    }
+
+    /// Motions that the program loses, and of how many, where that is half of them or more.
+    pub fn mostly_lost(&self) -> Option<(usize, usize)> {
+        let errors = self.measured().filter(|errors| errors.peak[0].is_none())?;
+        Some((errors.lost, errors.histories))
+    }
+
     fn known(&self) -> Option<ProgramName> {
         self.name.as_deref()?.parse().ok()
     }

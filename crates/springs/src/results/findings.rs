@@ -97,6 +97,9 @@ pub enum Finding {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         reference_share: Option<f64>,
         over_s: f64,
+        /// When its rotation on springs is largest (s), where that is known.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        largest_at_s: Option<f64>,
         /// Whether it would need more friction than there is.
         #[serde(default)]
         if_feet_hold: bool,
@@ -234,6 +237,9 @@ pub enum Finding {
     /// Motions near the record whose histories met their own bound on steps.
     NearMotionsLeftOut {
         motions: usize,
+        /// Whether none was followed.
+        #[serde(default)]
+        all: bool,
     },
     // whether the models hold
     Sliding {

@@ -89,10 +89,10 @@ impl Finding {
                 return Some(format!("give --step {longest_s:.1e} or less"));
             }
             Self::ProgramLoses { csi: true, .. } => {
-                "check that its history ends; else give a shorter --step"
+                "check that its history ends; else try --step 0.002, 0.004 or 0.0005: shorter is not always better"
             }
             Self::ProgramLoses { .. } => {
-                "check that its history ends; else a shorter --step, or --integrator backward-euler"
+                "check that its history ends; else another --step, or --integrator backward-euler"
             }
             Self::ProgramStepForAccuracy { .. } => {
                 "take such steps, or substeps at touches: tune export --stepping"

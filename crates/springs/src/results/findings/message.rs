@@ -337,7 +337,11 @@ impl Finding {
                     if *left_out { "their motions are left out" } else { "they count as lost" };
                 format!("{histories} {of} of the search met the bound on a history's steps: {then}")
             }
-            Self::NearMotionsLeftOut { motions } => {
+            Self::NearMotionsLeftOut { all: true, .. } => {
+                "no motion near the record could be followed within the bound on a history's steps"
+                    .into()
+            }
+            Self::NearMotionsLeftOut { motions, .. } => {
                 format!(
                     "{motions} motions near the record met the bound on a history's steps, and are \
                         left out"
