@@ -15,7 +15,8 @@ pub(crate) fn sheet(parts: &SapModel) -> String {
     if let Some((lost, all)) = parts.even.and_then(|even| even.lost) {
         let _ = writeln!(
             text,
-            "NOT to be used: such steps lose {lost} of {all} motions. Try another --step, longer ones too."
+            "NOT to be used: such steps lose {lost} of {all} motions. Try another --step, \
+             longer ones too."
         );
     }
     for (number, part) in [

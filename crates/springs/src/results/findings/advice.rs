@@ -89,7 +89,7 @@ impl Finding {
                 return Some(format!("give --step {longest_s:.1e} or less"));
             }
             Self::ProgramLoses { csi: true, .. } => {
-                "check that its history ends; else try --step 0.002, 0.004 or 0.0005: shorter is not always better"
+                "check that its history ends; else try another --step: shorter is not always better"
             }
             Self::ProgramLoses { .. } => {
                 "check that its history ends; else another --step, or --integrator backward-euler"
