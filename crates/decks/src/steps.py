@@ -33,7 +33,7 @@ class Steps:
     DROP = 0.02
     # What a pair may miss while all feet stand and none has risen yet, over `rise`: it dies away.
     STAND = 1e-4
-    # Over the farthest coordinate: a quarter of a digit.
+    # What rounding leaves of a gap, over the farthest coordinate.
     ROUNDING = 2.0**-54
 
     def __init__(self, feet, landing, longest, rise, accuracy=0.002):
@@ -46,7 +46,7 @@ class Steps:
         self.strongest = 0.0                  # acceleration of an open foot on long steps, m/s2
         self.highest = rise                   # a foot has come, m
         self.blur = 1e-10 * rise              # of a gap, m: what Newton's iteration leaves of it
-        # Of a gap, m: what rounding leaves of it, three times or more. Over the step it gives the rate, over its square the
+        # The same, m: three times what was seen on springs of 180 kHz. Over the step it gives the rate, over its square the
         # acceleration: on stiff springs both are nothing but rounding where steps are short, and tell of no lift.
         self.rounding = self.ROUNDING * max(abs(x) for node in ops.getNodeTags() for x in ops.nodeCoord(node))
         self.gaps = self.measure()

@@ -98,7 +98,7 @@ impl Ensemble {
             );
             [reference, fem]
         };
-        // where the outermost two are out of work, so are those between
+        // where the outermost two are out of work, those between are not tried
         let (first, last) = rayon::join(|| both(0), || both(MOTIONS - 1));
         let out_of_work =
             |pair: &[Near; 2]| pair.iter().any(|near| matches!(near, Near::OutOfWork));

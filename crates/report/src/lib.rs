@@ -286,7 +286,7 @@ impl Run {
                 _ => None,
             });
             let later = later.map_or(String::new(), |time| {
-                format!(", but largest at {} s: one motion of many", s(time))
+                format!("; the largest rotation, at {} s, is not", s(time))
             });
             return format!("; predictable to {} s{later}", s(until));
         }

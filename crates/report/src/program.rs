@@ -8,7 +8,7 @@ use springs::{
     parameters::{
         Parameters,
         elastic::ElasticParameters,
-        program::{FootUnits, ProgramErrors, ProgramRow, ProgramTest},
+        program::{FootUnits, ProgramErrors, ProgramRow, ProgramTest, not_to_be_used},
     },
     results::Finding,
     tuning::fixed_steps::THROUGH,
@@ -158,10 +158,7 @@ impl ProgramReport {
     /// For a screen: no settings of springs that are not to be used.
     pub(crate) fn line(&self) -> String {
         if !self.usable {
-            return format!(
-                "{} steps: {}; try another --step, longer ones too",
-                self.steps, self.errors
-            );
+            return format!("{} steps: {}", self.steps, self.errors);
         }
         let set_to: Vec<String> =
             self.set_to.iter().map(|s| s.short.clone()).filter(|short| !short.is_empty()).collect();
@@ -231,8 +228,8 @@ fn errors<U>(row: &ProgramRow<U>, peaks: &str) -> String {
     let [nrmse, _] = errors.history;
     let history = nrmse.map_or(String::new(), |x| format!(", NRMSE {}", significant(x, 2)));
     let n = errors.histories;
-    if let Some((lost, all)) = row.mostly_lost() {
-        return format!("NOT to be used: fails on {lost} of {all} motions");
+    if let Some(lost) = row.mostly_lost() {
+        return not_to_be_used(lost);
     }
     let lost = match errors.lost {
         0 => format!("on {n} motions"),

@@ -205,6 +205,11 @@ impl ProgramRow<CornerUnits> {
     }
 }
 
+/// That a program loses so many of its motions, and what to do.
+pub fn not_to_be_used((lost, all): (usize, usize)) -> String {
+    format!("NOT to be used: fails on {lost} of {all} motions; try another --step, longer ones too")
+}
+
 impl<U> ProgramRow<U> {
     /// The program in words.
     pub fn program(&self) -> String {

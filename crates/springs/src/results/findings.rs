@@ -237,7 +237,7 @@ pub enum Finding {
     /// Motions near the record whose histories met their own bound on steps.
     NearMotionsLeftOut {
         motions: usize,
-        /// Whether none was followed.
+        /// Whether these are all.
         #[serde(default)]
         all: bool,
     },

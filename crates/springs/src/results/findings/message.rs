@@ -338,8 +338,7 @@ impl Finding {
                 format!("{histories} {of} of the search met the bound on a history's steps: {then}")
             }
             Self::NearMotionsLeftOut { all: true, .. } => {
-                "no motion near the record could be followed within the bound on a history's steps"
-                    .into()
+                "motions near the record are left out: those tried met the bound on steps".into()
             }
             Self::NearMotionsLeftOut { motions, .. } => {
                 format!(
