@@ -101,6 +101,8 @@ pub struct FixedStepProgram {
     pub integrator: Integrator,
     /// Its step (s).
     pub step: f64,
+    /// Whether a user gave that step; another may be taken where it loses most motions, if not.
+    pub step_is_given: bool,
     /// A step that fails is halved, down to one in so many: 1, 2, 4, ...
     pub substeps: usize,
 }
@@ -115,12 +117,13 @@ const CSI_NEWTON: usize = 40;
 impl FixedStepProgram {
     /// A program that is known, at this step (s).
     pub fn of(name: ProgramName, step: f64) -> Self {
-        Self { name: Some(name), integrator: name.integrator(), step, substeps: SUBSTEPS }
+        let (integrator, substeps) = (name.integrator(), SUBSTEPS);
+        Self { name: Some(name), integrator, step, step_is_given: true, substeps }
     }
 
     /// What a run has springs for if nobody says otherwise: SAP2000 at a millisecond.
     pub fn usual() -> Self {
-        Self::of(ProgramName::Sap2000, USUAL_STEP)
+        Self { step_is_given: false, ..Self::of(ProgramName::Sap2000, USUAL_STEP) }
     }
 
     /// Whether its test of convergence is an unbalance over the structure's weight.

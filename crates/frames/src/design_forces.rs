@@ -27,11 +27,14 @@ pub use columns::{COMPARED, ColumnForces, ColumnPeaks, stiffer};
 pub use cutoff::Cutoff;
 
 use super::{
-    assembled::Assembled, fem::ElasticHistory, frame::EquilibriumError, rigid::RigidForces,
-    structure::ElasticStructure,
+    assembled::Assembled, fem::ElasticHistory, frame::EquilibriumError, peaks::StructurePeaks,
+    rigid::RigidForces, structure::ElasticStructure,
 };
 use check::{ForcePeaks, Variants};
-use dynamics::spring::{Chain, Springs};
+use dynamics::{
+    fem::HistoryOutcome,
+    spring::{Chain, Springs},
+};
 use rocking::motion::TimedPeak;
 use strong_motion::Record;
 
@@ -156,13 +159,13 @@ impl StructureForces {
         self.forces.iter().find(|force| force.kind == kind)
     }
 
-    /// The largest change at 4 Omega_n of what columns bear: their error, as far as it is known.
-    /// None where one of them is withheld.
+    /// The largest change, with springs or mesh, of those that hold: their error, as far as it is
+    /// known. None where one of a column is withheld.
     pub fn error(&self) -> Option<f64> {
-        let of_columns = || self.forces.iter().filter(|force| COMPARED.contains(&force.kind));
-        let changes =
-            of_columns().map(|force| force.others.change_by(force.others.stiffer)).reduce(f64::max);
-        changes.filter(|_| of_columns().all(|force| force.holds))
+        let mut of_columns = self.forces.iter().filter(|force| COMPARED.contains(&force.kind));
+        let all = of_columns.all(|force| force.holds);
+        let given = self.forces.iter().filter(|force| force.holds);
+        given.map(|force| force.others.change()).reduce(f64::max).filter(|_| all)
     }
 
     /// Of a structure on these springs, through a record; what it did on them and held to the
@@ -245,22 +248,38 @@ impl StructureForces {
     }
 }
 
-/// Peaks of forces through a record on given springs, not checked: what another motion would
-/// change.
+/// What another motion does to a structure on given springs, not checked.
+pub struct OtherMotion {
+    /// Largest displacement of a top (m).
+    pub top_displacement: f64,
+    /// When it overturns (s).
+    pub overturns: Option<f64>,
+    /// Largest forces [N, N m].
+    pub forces: Vec<(ForceKind, f64)>,
+}
+
+/// A structure on given springs through another record.
+///
 ///
 /// # Errors
 /// The structure does not stand.
-pub fn peaks_in(
+pub fn through(
     assembled: &Assembled,
     springs: &[Springs<Chain<f64>>],
     record: &Record,
-) -> Result<Vec<(ForceKind, f64)>, EquilibriumError> {
+) -> Result<OtherMotion, EquilibriumError> {
     let history = check::follow(&assembled.structure, &assembled.frame, springs, record)?;
     let peaks = ForcePeaks::of(&history, Cutoff::of(&assembled.structure).as_ref(), f64::INFINITY);
-    Ok(ForceKind::ALL
+    let forces = ForceKind::ALL
         .into_iter()
         .filter_map(|kind| Some((kind, peaks.get(kind)?.filtered.value)))
-        .collect())
+        .collect();
+    let moved = StructurePeaks::of(assembled, history.q.iter().map(Vec::as_slice));
+    let overturns = match history.outcome {
+        HistoryOutcome::Overturned { time } => Some(time),
+        _ => None,
+    };
+    Ok(OtherMotion { top_displacement: moved.displacement, overturns, forces })
 }
 
 /// Parts of a record's time step whose means hold what a structure's cutoffs keep.

@@ -2,24 +2,39 @@
 
 use super::{FiledParameters, Run, Table};
 use files::message::{percent, quantity, significant};
-use springs::results::Peaks;
+use springs::results::{PeakTimes, Peaks};
 
 /// A row's name, its quantity, and its words.
 type PeakRow = (&'static str, fn(&Peaks) -> Option<f64>, fn(f64) -> String);
+/// A quantity's name, and when it is largest (s).
+type PeakTime = (&'static str, fn(&PeakTimes) -> Option<f64>);
 
+const TOP: &str = "top displacement";
+const ROCKING: &str = "  by rocking";
+const BENDING: &str = "  by bending";
+const DRIFT: &str = "  drift ratio";
+const UPLIFT: &str = "uplift";
 /// The row of what feet move.
 const MOVED: &str = "  feet moved";
 /// Share of the top's displacement below which it is not said.
 const NOT_SAID: f64 = 0.02;
 
 const ROWS: [PeakRow; 7] = [
-    ("top displacement", |p| Some(p.top_displacement_m), meters),
-    ("  by rocking", |p| p.bending_m.map(|_| p.rocking_m), meters),
-    ("  by bending", |p| p.bending_m, meters),
+    (TOP, |p| Some(p.top_displacement_m), meters),
+    (ROCKING, |p| p.bending_m.map(|_| p.rocking_m), meters),
+    (BENDING, |p| p.bending_m, meters),
     (MOVED, |p| p.feet_moved_m, meters),
-    ("  drift ratio", |p| Some(p.drift_ratio), |x| format!("{} %", significant(1e2 * x, 3))),
-    ("uplift", |p| Some(p.uplift_m), meters),
+    (DRIFT, |p| Some(p.drift_ratio), |x| format!("{} %", significant(1e2 * x, 3))),
+    (UPLIFT, |p| Some(p.uplift_m), meters),
     ("impacts", |p| Some(p.impacts as f64), |x| format!("{x:.0}")),
+];
+
+const TIMES: [PeakTime; 5] = [
+    (TOP, |t| Some(t.top_displacement_s)),
+    (ROCKING, |t| Some(t.rocking_s)),
+    (BENDING, |t| t.bending_s),
+    (DRIFT, |t| Some(t.top_displacement_s)),
+    (UPLIFT, |t| Some(t.uplift_s)),
 ];
 
 /// Below this a displacement is rounding (m).
@@ -40,7 +55,18 @@ pub fn peak_table(run: &Run) -> Option<Table> {
     // the parts of a displacement are largest at times of their own, so that they are more than the
     // whole
     let opposed = pair.reference.rocking_m > pair.reference.top_displacement_m;
+    // what is largest after the motion can be foretold is marked
+    let until = run.predictable_to().filter(|_| !run.one_of_many());
+    let marked = |name: &str, peaks: &Peaks| {
+        let times = peaks.times.as_ref().zip(until);
+        let late = |(of, when): &PeakTime| {
+            times.is_some_and(|(times, until)| *of == name && when(times) > Some(until))
+        };
+        TIMES.iter().any(late)
+    };
+    let any = |peaks: &Peaks| TIMES.iter().any(|(name, _)| marked(name, peaks));
     let largest = match pair.reference.bending_m {
+        _ if any(&pair.reference) || any(&pair.springs) => "largest (* not predictable)",
         Some(_) if opposed => "largest; parts oppose",
         Some(_) => "largest, each by itself",
         None => "largest",
@@ -71,8 +97,16 @@ pub fn peak_table(run: &Run) -> Option<Table> {
         } else {
             ""
         };
-        let mut row = vec![format!("{name}{counted}"), words(a), words(b), difference];
-        row.extend(with.and_then(of).map(words));
+        let cell = |value: f64, peaks: &Peaks| {
+            format!("{}{}", words(value), if marked(name, peaks) { "*" } else { "" })
+        };
+        let mut row = vec![
+            format!("{name}{counted}"),
+            cell(a, &pair.reference),
+            cell(b, &pair.springs),
+            difference,
+        ];
+        row.extend(with.and_then(|with| Some(cell(of(with)?, with))));
         Some(row)
     };
     let mut table = Table::new(head).with(ROWS.into_iter().filter_map(row));

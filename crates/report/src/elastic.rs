@@ -11,7 +11,7 @@ use ::springs::{
     parameters::elastic::{ElasticParameters, OnRecord},
     results::{
         DesignForce, DesignForces, Ending, Finding, FindingModel, ForceName, PeakChange, PeakPair,
-        Peaks,
+        PeakTimes, Peaks,
     },
 };
 use dynamics::{
@@ -23,7 +23,7 @@ pub use forces::design_forces;
 use frames::{
     answer::{ElasticAnswer, ElasticHistories},
     assembled::{Assembled, Sway},
-    design_forces::{ForceKind, peaks_in},
+    design_forces::{ForceKind, through},
     ensemble::Ensemble,
     frame::Frame,
     reference::{ReferenceEvent, ReferenceOutcome, Stop, What},
@@ -103,25 +103,41 @@ impl ElasticParts<'_> {
             .map_or(n, |falls| falls.min(n));
         let frame = &self.assembled.frame;
         let of = |q: &dyn Fn(usize) -> Vec<f64>, k: usize, impacts: usize| {
-            let mut peaks = Peaks { impacts, ..Peaks::default() };
-            let (mut bending, mut moved): (f64, f64) = (0.0, 0.0);
+            let [mut top, mut rocking, mut bending, mut lifted] = [TimedPeak::default(); 4];
+            let mut moved: f64 = 0.0;
             for i in 0..n {
                 let q = q(i);
+                let now = |value: f64| TimedPeak { value, time: i as f64 * self.record.dt };
                 for (watched, pair) in self.assembled.watched.iter().zip(sways) {
                     let Sway { rotation, drift } = &pair[k];
                     let [x, ..] = frame.displacement(watched.top, &q);
                     let feet = watched.base.feet_moved(frame, &q);
                     moved = moved.max(feet.abs());
-                    peaks.top_displacement_m = peaks.top_displacement_m.max(x.abs());
+                    top = top.larger(now(x));
                     // across the base's axis, which has turned
                     let across = drift[i] * rotation[i].cos();
-                    peaks.rocking_m = peaks.rocking_m.max((x - feet - across).abs());
-                    bending = bending.max(drift[i].abs());
+                    rocking = rocking.larger(now(x - feet - across));
+                    bending = bending.larger(now(drift[i]));
                 }
-                peaks.uplift_m = peaks.uplift_m.max(uplift(frame, &q));
+                lifted = lifted.larger(now(uplift(frame, &q)));
             }
-            let drift_ratio = peaks.top_displacement_m / top_height(&self.assembled.structure);
-            Peaks { bending_m: Some(bending), feet_moved_m: Some(moved), drift_ratio, ..peaks }
+            let top_displacement_m = top.value.abs();
+            let times = PeakTimes {
+                top_displacement_s: top.time,
+                rocking_s: rocking.time,
+                bending_s: Some(bending.time),
+                uplift_s: lifted.time,
+            };
+            Peaks {
+                top_displacement_m,
+                rocking_m: rocking.value.abs(),
+                bending_m: Some(bending.value.abs()),
+                feet_moved_m: Some(moved),
+                uplift_m: lifted.value,
+                drift_ratio: top_displacement_m / top_height(&self.assembled.structure),
+                impacts,
+                times: Some(times),
+            }
         };
         let landings = reference.history.landings().map(|event| event.time);
         let touches = fem.contacts.iter().filter(|contact| contact.touches).map(|c| c.time);
@@ -208,11 +224,27 @@ impl ElasticParts<'_> {
         let (vertical_g, horizontal_g) = self.case.doubts().into_iter().find_map(large)?;
         let with = || {
             let record = self.case.excitation.with_vertical_left_out()?.ok()?.used().ok()?;
-            peaks_in(self.assembled, self.springs, &record).ok()
+            through(self.assembled, self.springs, &record).ok()
         };
         // of forces that do not hold there is nothing to compare
         let checked = self.answer.design.forces.iter().any(|force| force.holds);
-        let with = if checked { with()? } else { Vec::new() };
+        let Some(with) = checked.then(with) else {
+            let (overturns_s, changes) = (None, Vec::new());
+            return Some(Finding::VerticalLeftOut {
+                vertical_g,
+                horizontal_g,
+                overturns_s,
+                changes,
+            });
+        };
+        let with = with?;
+        let fell = matches!(self.answer.histories.fem.outcome, HistoryOutcome::Overturned { .. });
+        let top = PeakChange {
+            quantity: "top displacement".into(),
+            unit: "m".into(),
+            without: self.peaks().springs.top_displacement_m,
+            with: with.top_displacement,
+        };
         let change = |(kind, with): (ForceKind, f64)| {
             let without = self.answer.design.get(kind)?.value?.abs();
             let (quantity, unit) = (kind.name().to_string(), kind.unit().to_string());
@@ -221,7 +253,8 @@ impl ElasticParts<'_> {
         Some(Finding::VerticalLeftOut {
             vertical_g,
             horizontal_g,
-            changes: with.into_iter().filter_map(change).collect(),
+            overturns_s: with.overturns.filter(|_| !fell),
+            changes: [top].into_iter().chain(with.forces.into_iter().filter_map(change)).collect(),
         })
     }
 

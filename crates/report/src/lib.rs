@@ -26,6 +26,7 @@ pub mod screen;
 pub mod stiffness_tradeoff;
 pub mod table;
 
+use rocking::structure::Kind;
 use serde::Serialize;
 
 pub use accuracy::{AccuracyOn, AccuracyReport};
@@ -73,8 +74,17 @@ fn doubts(all: Vec<Doubt>) -> impl Iterator<Item = Finding> {
     those.map(|doubt| Finding::Doubt { message: doubt.message(), remedy: doubt.remedy() })
 }
 
+/// Names of a rigid body's forces.
+fn force_words(kind: Kind) -> fn(ForceName) -> &'static str {
+    match kind {
+        Kind::Block => ForceName::words_of_block,
+        Kind::AFrame => ForceName::words,
+    }
+}
+
 /// What changes from one run to another: top displacement and the design forces that both give.
 fn changes(
+    words: fn(ForceName) -> &'static str,
     (peaks, forces): (Option<PeakPair>, Option<DesignForces>),
     (with_peaks, with_forces): (PeakPair, DesignForces),
 ) -> Vec<PeakChange> {
@@ -93,7 +103,7 @@ fn changes(
     let forces = forces.into_iter().flat_map(|forces| forces.all().collect::<Vec<_>>()).filter_map(
         |(name, force)| {
             let (_, other) = with.iter().find(|(other, _)| *other == name)?;
-            Some(change(name.words(), name.unit(), force.value?.abs(), other.value?.abs()))
+            Some(change(words(name), name.unit(), force.value?.abs(), other.value?.abs()))
         },
     );
     top.into_iter().chain(forces).collect()
@@ -261,6 +271,14 @@ impl Run {
         apart.map_or(String::new(), |apart| format!("; its feet end {}", apart_words(apart)))
     }
 
+    /// Names of forces: a block has no column.
+    pub(crate) fn force_words(&self) -> fn(ForceName) -> &'static str {
+        match &self.parameters {
+            FiledParameters::Rigid(parameters) => force_words(parameters.structure.kind),
+            FiledParameters::Elastic(_) => ForceName::words,
+        }
+    }
+
     /// Whether the motion is one of many that the record might as well have made.
     pub(crate) fn one_of_many(&self) -> bool {
         self.findings.iter().any(|f| matches!(f.finding, Finding::IllConditioned { .. }))
@@ -272,22 +290,13 @@ impl Run {
         if self.one_of_many() {
             return "; no model predicts it".into();
         }
-        let until = self.findings.iter().find_map(|filed| match filed.finding {
-            Finding::ForetoldUpTo { time_s, .. } | Finding::SlidesOn { time_s, .. } => Some(time_s),
-            Finding::DeckJudged { judged_s, end: DeckEnd::Foretold | DeckEnd::Slides, .. } => {
-                Some(judged_s)
-            }
-            _ => None,
-        });
-        if let Some(until) = until {
+        if let Some(until) = self.predictable_to() {
             let s = |time: f64| files::message::significant(time, 4);
             let later = self.findings.iter().find_map(|filed| match filed.finding {
                 Finding::Stands { largest_at_s, .. } => largest_at_s.filter(|&time| time > until),
                 _ => None,
             });
-            let later = later.map_or(String::new(), |time| {
-                format!("; the largest rotation, at {} s, is not", s(time))
-            });
+            let later = if later.is_some() { "; the largest rotation is not" } else { "" };
             return format!("; predictable to {} s{later}", s(until));
         }
         let in_part = any(|f| match f {
@@ -304,6 +313,17 @@ impl Run {
             true => "; predictable".into(),
             false => String::new(),
         }
+    }
+
+    /// Up to when a motion can be foretold (s), if that is not all of it.
+    pub(crate) fn predictable_to(&self) -> Option<f64> {
+        self.findings.iter().find_map(|filed| match filed.finding {
+            Finding::ForetoldUpTo { time_s, .. } | Finding::SlidesOn { time_s, .. } => Some(time_s),
+            Finding::DeckJudged { judged_s, end: DeckEnd::Foretold | DeckEnd::Slides, .. } => {
+                Some(judged_s)
+            }
+            _ => None,
+        })
     }
 
     /// What of the answer is missing, because a history ended before its record.

@@ -105,13 +105,13 @@ fn section(part: &Section) -> String {
 }
 
 fn forces(run: &Run) -> Option<Section> {
-    let forces = run.design_forces.as_ref()?;
+    let (forces, words) = (run.design_forces.as_ref()?, run.force_words());
     let cell = |x: Option<f64>, name: ForceName| x.map_or("-".into(), |x| quantity(x, name.unit()));
     let row = |(name, force): (ForceName, DesignForce)| {
         let doubt =
             if force.holds && !run.foretells((name, force)) { ", not predictable" } else { "" };
         vec![
-            format!("{}{}", name.words(), height(&force)),
+            format!("{}{}", words(name), height(&force)),
             force_value(name, &force) + doubt,
             format!("{} s", significant(force.time_s, 4)),
             force.change.map_or("not measured".into(), percent),

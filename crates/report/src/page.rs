@@ -97,7 +97,7 @@ fn tiles(run: &Run) -> String {
     for (name, force) in run.design_forces.iter().flat_map(|forces| forces.all()) {
         let value =
             force.value.map_or("withheld".into(), |value| quantity(value.abs(), name.unit()));
-        out += &tile(&value, name.words());
+        out += &tile(&value, run.force_words()(name));
     }
     if let Some(a) = &run.accuracy {
         let asked = match (a.peaks_asked, a.history_asked) {

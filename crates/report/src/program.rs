@@ -231,17 +231,19 @@ fn errors<U>(row: &ProgramRow<U>, peaks: &str) -> String {
     if let Some(lost) = row.mostly_lost() {
         return not_to_be_used(lost);
     }
-    let lost = match errors.lost {
-        0 => format!("on {n} motions"),
-        lost => format!("fails on {lost} of {n} motions"),
+    let [fails, on] = match errors.lost {
+        0 => [String::new(), format!("; on {n} motions")],
+        lost => [format!("fails on {lost} of {n} motions; "), String::new()],
     };
     let ninety = ninety.map_or(String::new(), |error| format!(", {} (90 %)", percent(error)));
     let here = row.on_record.and_then(|on| {
-        let ends = on.gives_up_s.map(|s| format!("gives up at {} s", significant(s, 3)));
+        let ends = on
+            .gives_up_s
+            .map(|s| format!("gives up at {} s, try another --step", significant(s, 3)));
         ends.or(on.top.map(|top| format!("top {}", signed(top))))
     });
     let here = here.map_or(String::new(), |what| format!("this record: {what}; "));
-    format!("{here}{peaks} within {} (median){ninety}{history}; {lost}", cell(median))
+    format!("{here}{fails}{peaks} within {} (median){ninety}{history}{on}", cell(median))
 }
 
 /// A difference with its sign.

@@ -5,6 +5,7 @@ use dynamics::fem::{self, HistoryOutcome};
 use rocking::{
     conditioning::Conditioning,
     housner::{self, Rocking},
+    motion::TimedPeak,
     regime::{self, Regime},
     structure::{Body, Structure},
 };
@@ -103,7 +104,7 @@ pub fn all(
     report: &HousnerReport,
     of: &Verdict,
 ) -> Vec<Finding> {
-    let mut all = verdict(structure, record, of);
+    let mut all = verdict(structure, record, both, of);
     all.extend(ill_conditioned(report, of, false));
     all.extend(report.findings());
     all.extend(histories(both));
@@ -111,7 +112,12 @@ pub fn all(
 }
 
 /// What the body does in both models, and what the comparison is worth.
-pub(crate) fn verdict(structure: &Structure, record: &Record, verdict: &Verdict) -> Vec<Finding> {
+pub(crate) fn verdict(
+    structure: &Structure,
+    record: &Record,
+    both: &ModelComparison,
+    verdict: &Verdict,
+) -> Vec<Finding> {
     let Verdict { housner, finite_elements, .. } = verdict;
     let mut all = vec![match (housner.fate, finite_elements.fate) {
         (Fate::NeverLifted, _) => {
@@ -129,7 +135,7 @@ pub(crate) fn verdict(structure: &Structure, record: &Record, verdict: &Verdict)
             share_of_overturning: finite_elements.peak_ratio,
             reference_share: (housner.fate == Fate::Rocked).then_some(housner.peak_ratio),
             over_s: verdict.compared_s,
-            largest_at_s: None,
+            largest_at_s: TimedPeak::of(record.dt, &both.fem.motion.theta).map(|peak| peak.time),
             if_feet_hold: false,
             of_columns: false,
         },

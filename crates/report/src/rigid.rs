@@ -87,9 +87,11 @@ impl RigidRun {
         let kind = case.structure.kind;
         parameters.peaks = Some(peaks(kind, &job.body, job.record.dt, &both));
         let of_steps = parameters.program.as_ref();
+        let compared = (&both, job.record.dt);
         let of_steps = of_steps.and_then(|_| stepped_history(&parameters, &job.record).ok());
-        let on_record =
-            of_steps.as_ref().and_then(|history| program::on_record(&parameters, history, &both));
+        let on_record = of_steps
+            .as_ref()
+            .and_then(|history| program::on_record(&parameters, history, compared));
         if let Some(row) = &mut parameters.program {
             row.on_record = on_record;
         }
@@ -145,7 +147,8 @@ impl RigidRun {
             .assessment
             .is_some_and(|a| a.reached && a.measured.synthetic_median.is_some());
         if let Some(verdict) = &parameters.verdict {
-            all.extend(reference::verdict(&self.case.structure, &self.job.record, verdict));
+            let (structure, record) = (&self.case.structure, &self.job.record);
+            all.extend(reference::verdict(structure, record, &self.both, verdict));
             all.extend(reference::ill_conditioned(&self.report, verdict, judged));
         }
         all.extend(self.vertical_left_out());
@@ -178,9 +181,13 @@ impl RigidRun {
             peaks(kind, &job.body, record.dt, &both),
             design_forces(kind, &job.body, &record, &both, None),
         );
-        let changes =
-            changes((self.parameters.peaks, self.parameters.design_forces), (peaks, forces));
-        Some(Finding::VerticalLeftOut { vertical_g, horizontal_g, changes })
+        let given = (self.parameters.peaks, self.parameters.design_forces);
+        let changes = changes(super::force_words(kind), given, (peaks, forces));
+        let fell = |both: &ModelComparison| {
+            both.matched.overturned_housner_s.or(both.matched.overturned_fem_s)
+        };
+        let overturns_s = fell(&both).filter(|_| fell(&self.both).is_none());
+        Some(Finding::VerticalLeftOut { vertical_g, horizontal_g, overturns_s, changes })
     }
 
     fn sections(&self) -> Vec<Section> {
@@ -290,7 +297,7 @@ fn peaks(kind: Kind, body: &Body<f64>, dt: f64, both: &ModelComparison) -> PeakP
             .flatten()
             .reduce(f64::min);
         let n = samples_until(fell, dt).min(theta.len());
-        Peaks::of_rigid(kind, body, &theta[..n], u.map(|u| &u[..n]), impacts)
+        Peaks::of_rigid((kind, body), dt, &theta[..n], u.map(|u| &u[..n]), impacts)
     };
     let ends = both.rocking.left_ground();
     let springs = |m: &Match, history: &History| {

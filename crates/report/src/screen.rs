@@ -41,18 +41,23 @@ const SPACIOUS: Crowding = Crowding {
     both_commands: true,
 };
 
-/// The first in which every warning has its room is taken, else the last.
-const CROWDING: [Crowding; 3] = [
+/// What leaves most room.
+const CLOSEST: Crowding = Crowding {
+    empty_line: false,
+    assumed: 1,
+    accuracy: 1,
+    measured: 1,
+    sentence: 2,
+    both_commands: false,
+};
+
+/// The first is taken if every warning has all its lines there; else the first of the others where
+/// each has what it needs; else the last.
+const CROWDING: [Crowding; 4] = [
     SPACIOUS,
     Crowding { empty_line: false, ..SPACIOUS },
-    Crowding {
-        empty_line: false,
-        assumed: 1,
-        accuracy: 1,
-        measured: 1,
-        sentence: 2,
-        both_commands: false,
-    },
+    Crowding { assumed: 2, ..CLOSEST },
+    CLOSEST,
 ];
 
 /// What is said where no springs suit steps of one size.
@@ -93,18 +98,15 @@ impl Written<'_> {
 /// The screen: at most `LINES` lines of at most `WIDTH` letters.
 pub fn screen(run: &Run, written: &Written) -> String {
     let warnings = warnings(run, written.left_out);
-    let answers = CROWDING.map(|crowding| answer(run, written, crowding));
     // the last line is the report's
     let room = |lines: &Vec<String>| (LINES - 1).saturating_sub(lines.len());
     let wanted: usize = warnings.iter().map(warning_lines).sum();
-    let [spacious, close, closest] = answers;
-    let mut lines = if room(&spacious) >= wanted {
-        spacious
-    } else if room(&close) >= warnings.len() {
-        close
-    } else {
-        closest
+    let least: usize = warnings.iter().map(Warned::least_lines).sum();
+    let answers = CROWDING.iter().map(|crowding| answer(run, written, *crowding));
+    let fits = |(level, lines): &(usize, Vec<String>)| {
+        room(lines) >= if *level == 0 { wanted } else { least } || level + 1 == CROWDING.len()
     };
+    let mut lines = answers.enumerate().find(fits).map(|(_, lines)| lines).unwrap_or_default();
     let name = if written.report { "report.html" } else { "parameters.json" };
     tell(&warnings, &written.file(name), &mut lines);
     if written.report {

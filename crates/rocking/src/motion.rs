@@ -56,11 +56,12 @@ impl TimedPeak {
     /// Of samples dt (s) apart: the first of the largest; none of no samples.
     pub fn of(dt: f64, series: &[f64]) -> Option<Self> {
         let sample = |(i, &value): (usize, &f64)| Self { value, time: i as f64 * dt };
-        series
-            .iter()
-            .enumerate()
-            .map(sample)
-            .reduce(|a, b| if b.value.abs() > a.value.abs() { b } else { a })
+        series.iter().enumerate().map(sample).reduce(Self::larger)
+    }
+
+    /// The one of the larger magnitude, this one if both are equal.
+    pub fn larger(self, other: Self) -> Self {
+        if other.value.abs() > self.value.abs() { other } else { self }
     }
 }
 

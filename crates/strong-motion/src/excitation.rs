@@ -98,19 +98,21 @@ impl Excitation {
         };
         let samples = self.record.truncated(self.duration()).len();
         let step = self.record.dt;
-        self.told(&from, &format!(": {samples} samples of {step} s"))
+        let peak = self.record.truncated(self.duration()).pga_time();
+        let when = format!(" at {} s", seconds(peak));
+        self.told(&from, &format!(": {samples} samples of {step} s"), &when)
     }
 
-    /// The same, shorter: without the file's path and the number of samples.
+    /// The same, shorter: without the file's path, the number of samples, and when the peak is.
     pub fn short_line(&self) -> String {
         let from = match &self.record.source {
             crate::Source::File { units, .. } => format!("in {units}"),
             _ => "embedded".into(),
         };
-        self.told(&from, &format!(", step {} s", self.record.dt))
+        self.told(&from, &format!(", step {} s", self.record.dt), "")
     }
 
-    fn told(&self, from: &str, samples: &str) -> String {
+    fn told(&self, from: &str, samples: &str, when: &str) -> String {
         let whole = &self.record;
         let used = whole.truncated(self.duration());
         let part = if used.len() < whole.len() {
@@ -122,11 +124,10 @@ impl Excitation {
             format!("; vertical {}, peak {:.4} g", up.name, up.peak_g() * self.scale.abs())
         });
         format!(
-            "record {} ({from}), scale {}, {part}{samples}, PGA {:.4} g at {} s{vertical}",
+            "record {} ({from}), scale {}, {part}{samples}, PGA {:.4} g{when}{vertical}",
             whole.name,
             self.scale,
-            used.pga_g() * self.scale.abs(),
-            seconds(used.pga_time())
+            used.pga_g() * self.scale.abs()
         )
     }
 }

@@ -188,5 +188,6 @@ fn peaks(assembled: &Assembled, fem: &ElasticHistory) -> Peaks {
         uplift_m,
         drift_ratio: top_displacement_m / height,
         impacts: report::elastic::impacts(touches, rest),
+        times: None,
     }
 }

@@ -13,7 +13,8 @@ pub struct ProgramOptions {
     /// opensees-even [default: the case's; sap2000]
     #[arg(long = "for", value_name = "PROGRAM")]
     name: Option<String>,
-    /// Its time step in seconds [default: the case's; 0.001]
+    /// Its time step in seconds [default: the case's; 0.001, or the first of 0.002, 0.004 and 0.008
+    /// that gets an elastic structure through]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     step: Option<f64>,
     /// Its integrator: newmark:GAMMA:BETA, hht:ALPHA (0 to -1/3), generalized-alpha:RHO, trbdf2 or

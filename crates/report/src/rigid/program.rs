@@ -41,12 +41,12 @@ pub(super) fn findings(case: &Case, parameters: &Parameters) -> Vec<Finding> {
 pub(super) fn on_record(
     parameters: &Parameters,
     history: &FixedStepHistory,
-    both: &ModelComparison,
+    (both, dt): (&ModelComparison, f64),
 ) -> Option<ProgramOnRecord> {
     let body = parameters.structure.body();
     let of = |motion: &Motion| {
         let (theta, u) = (&motion.theta, Some(&motion.u[..]));
-        Peaks::of_rigid(parameters.structure.kind, &body, theta, u, 0).top_displacement_m
+        Peaks::of_rigid((parameters.structure.kind, &body), dt, theta, u, 0).top_displacement_m
     };
     let gives_up = match &history.outcome {
         FixedStepOutcome::GaveUp(GaveUp { time, .. }) => Some(*time),

@@ -4,8 +4,18 @@ use super::{WIDTH, lines::wrap};
 use crate::{FiledParameters, Run};
 use files::message::{percent, quantity, significant};
 use frames::structure::ElasticStructure;
-use rocking::structure::Kind;
 use springs::results::{DesignForce, DesignForces, ForceName};
+
+/// What is told of a force besides when it is largest, as far as there is room.
+#[derive(Clone, Copy, PartialEq)]
+enum Told {
+    /// Where a shear is, and the axial force beside a moment.
+    Both,
+    /// The axial force alone.
+    Axial,
+    /// Neither.
+    Neither,
+}
 
 /// Blanks before a cell, and between two.
 const INDENT: usize = 2;
@@ -32,15 +42,17 @@ pub(super) fn lines(run: &Run) -> Vec<String> {
     let mut all: Vec<_> =
         forces.all().filter(|(name, _)| *name != ForceName::SoleVertical).collect();
     all.sort_by(|a, b| order(*a).total_cmp(&order(*b)));
-    let cells = |brief: bool| -> Vec<[String; 2]> {
+    let cells = |told: Told| -> Vec<[String; 2]> {
         let cell = |&(name, force): &(ForceName, DesignForce)| {
             let mark = if doubted((name, force)) { mark } else { "" };
-            [short(run, name, &force), value(name, &force, mark, brief)]
+            [short(run, name, &force), value(name, &force, mark, told)]
         };
         all.iter().map(cell).collect()
     };
-    let rows = in_pairs(&cells(false)).or_else(|| in_pairs(&cells(true)));
-    let one_each = || cells(false).iter().map(|cell| format!("  {}", cell.join("  "))).collect();
+    let rows = [Told::Both, Told::Axial, Told::Neither];
+    let rows = rows.into_iter().find_map(|told| in_pairs(&cells(told)));
+    let one_each =
+        || cells(Told::Both).iter().map(|cell| format!("  {}", cell.join("  "))).collect();
     lines.extend(rows.unwrap_or_else(one_each));
     lines
 }
@@ -49,8 +61,10 @@ pub(super) fn lines(run: &Run) -> Vec<String> {
 fn which(run: &Run, forces: &DesignForces) -> String {
     match (&run.parameters, forces.below_hz) {
         (FiledParameters::Rigid(_), _) => " between impacts".into(),
-        (_, Some(hz)) => format!(" below {} Hz, landings included", significant(hz, 3)),
-        (_, None) => ", landings included".into(),
+        (_, Some(hz)) => {
+            format!(" below {} Hz, landings on rigid ground included", significant(hz, 3))
+        }
+        (_, None) => ", landings on rigid ground included".into(),
     }
 }
 
@@ -79,24 +93,20 @@ fn order((name, force): (ForceName, DesignForce)) -> f64 {
 
 /// A name without what the report adds to it.
 fn short(run: &Run, name: ForceName, force: &DesignForce) -> String {
-    let block = matches!(&run.parameters, FiledParameters::Rigid(parameters)
-        if parameters.structure.kind == Kind::Block);
     let pier = matches!(&run.parameters, FiledParameters::Elastic(parameters)
         if matches!(parameters.structure, ElasticStructure::Pier(_)));
     match name {
         ForceName::Axial if force.value.is_some_and(|value| value < 0.0) => {
             "axial compression".into()
         }
-        ForceName::ColumnShear if block => "base shear".into(),
-        ForceName::ColumnBaseMoment if block => "moment at the base".into(),
-        ForceName::SoleShear if block || pier => "shear at the sole".into(),
+        ForceName::SoleShear if pier => "shear at the sole".into(),
         ForceName::SoleShear => "shear, all soles".into(),
-        _ => name.words().into(),
+        _ => run.force_words()(name).into(),
     }
 }
 
 /// The magnitude, when, and where; what is withheld lies between what was found.
-fn value(name: ForceName, force: &DesignForce, mark: &str, brief: bool) -> String {
+fn value(name: ForceName, force: &DesignForce, mark: &str, told: Told) -> String {
     let newtons = |x: f64| quantity(x.abs(), name.unit());
     let Some(largest) = force.value else {
         let found = force.others.and_then(|others| others.range());
@@ -109,13 +119,17 @@ fn value(name: ForceName, force: &DesignForce, mark: &str, brief: bool) -> Strin
         true => ", own weight".to_string(),
         false => format!(" at {} s", significant(force.time_s, 4)),
     };
-    let up = force.above_base_m.filter(|above| *above > 0.0 && !brief);
+    let up = force.above_base_m.filter(|above| *above > 0.0 && told == Told::Both);
     let up = up.map_or(String::new(), |above| format!(", {} m up", significant(above, 3)));
     let whole = force.over_s.and(force.whole_record);
     if let Some(whole) = whole {
         return format!("{}{mark}; over all {}", newtons(largest), newtons(whole.found));
     }
-    format!("{}{mark}{when}{up}", newtons(largest))
+    // what a section bears at the same time
+    let axial = force.together.filter(|_| name == ForceName::ColumnBaseMoment);
+    let axial = axial.filter(|_| told != Told::Neither).map(|together| together.axial_n);
+    let axial = axial.map_or(String::new(), |axial| format!(", axial {}", quantity(axial, "N")));
+    format!("{}{mark}{when}{up}{axial}", newtons(largest))
 }
 
 /// Two cells to a line, names and values below each other; none if a line would be too long.

@@ -51,6 +51,11 @@ impl Warned {
         }
     }
 
+    /// Lines that it needs.
+    pub(super) fn least_lines(&self) -> usize {
+        if self.whole { warning_lines(self) } else { 1 }
+    }
+
     /// In so many lines: what does not fit is left out of the message, so that the remedy stays,
     /// unless that takes most of them.
     pub(super) fn in_lines(&self, most: usize) -> Vec<String> {

@@ -95,7 +95,8 @@ impl ProgramSection {
                 format!("give a number from {least} to {most}"),
             ));
         }
-        Ok(FixedStepProgram { name, integrator, step, substeps })
+        let step_is_given = self.step_s.is_some();
+        Ok(FixedStepProgram { name, integrator, step, step_is_given, substeps })
     }
 
     /// The program of a case file, none if it asks for none; `path` names it in messages.

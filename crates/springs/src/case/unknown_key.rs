@@ -1,7 +1,12 @@
 //! A key that is not known, and the known one that was meant.
 
+use frames::structure::ElasticStructure;
+
 /// The key of a mass.
 const MASS: &str = "mass_kg";
+
+/// A key of rigid bodies alone.
+const RIGID: &str = "total_height_m";
 
 /// What serde says of a key that is not known.
 pub(super) struct UnknownKey {
@@ -23,13 +28,20 @@ impl UnknownKey {
         let distance = |known: &&String| strsim::damerau_levenshtein(&key, known);
         let masses = known.iter().filter(|known| key.contains("weight") && known.ends_with(MASS));
         let mass = masses.min_by_key(distance);
-        let like = known.iter().filter(|known| is_like(&key, known)).min_by_key(distance);
+        let like = known.iter().filter(|known| is_like(&key, known));
+        let like = like.min_by_key(|known| (!is_end(&key, known), distance(known)));
         let near = mass.or(like).cloned();
         Some(Self { key, near, known })
     }
 
     /// What to do, after the key.
     pub(super) fn advice(&self) -> String {
+        let of_others = kinds_with(&self.key);
+        let rigid = self.known.iter().any(|known| known == RIGID);
+        if rigid && !of_others.is_empty() {
+            let kinds: Vec<String> = of_others.iter().map(|kind| format!("\"{kind}\"")).collect();
+            return format!("it is a key of kind = {}", kinds.join(" or "));
+        }
         match &self.near {
             Some(near) => format!("did you mean \"{near}\"?"),
             None if self.known.is_empty() => "remove it".into(),
@@ -38,12 +50,27 @@ impl UnknownKey {
     }
 }
 
+/// Kinds of elastic structures that have a key.
+fn kinds_with(key: &str) -> Vec<&'static str> {
+    let has = |kind: &&str| {
+        let asked = format!("kind = \"{kind}\"\n\"\" = 0");
+        let error = toml::from_str::<ElasticStructure>(&asked).err();
+        let of = error
+            .and_then(|error| UnknownKey::of(error.message().lines().next().unwrap_or_default()));
+        of.is_some_and(|of| of.known.iter().any(|known| known == key))
+    };
+    ["pier", "frame", "aframe"].into_iter().filter(has).collect()
+}
+
+/// Whether one is an end of the other.
+fn is_end(key: &str, known: &str) -> bool {
+    let end = |long: &str, short: &str| long.starts_with(short) || long.ends_with(short);
+    end(known, key) || end(key, known)
+}
+
 /// Whether one could be meant by the other: an end of it, or at most half of its letters differ.
 fn is_like(key: &str, known: &str) -> bool {
-    let end = |long: &str, short: &str| long.starts_with(short) || long.ends_with(short);
-    end(known, key)
-        || end(key, known)
-        || 2 * strsim::damerau_levenshtein(key, known) <= key.len().min(known.len())
+    is_end(key, known) || 2 * strsim::damerau_levenshtein(key, known) <= key.len().min(known.len())
 }
 
 #[cfg(test)]
@@ -69,6 +96,20 @@ mod tests {
         }
         let known = "known are height_m, width_m, column_mass_kg, ei_nm2, material";
         assert_eq!(advice("colour"), known);
+        // an end before letters that differ
+        let pier = "unknown field `footing_width_m`, expected one of `footing_height_m`, `width_m`";
+        assert_eq!(UnknownKey::of(pier).unwrap().near.as_deref(), Some("width_m"));
+    }
+
+    #[test]
+    fn a_key_of_another_kind_is_told_of() {
+        let block = "unknown field `column_mass_kg`, expected one of `total_height_m`, `mass_kg`";
+        let kinds = "it is a key of kind = \"pier\" or \"frame\"";
+        assert_eq!(UnknownKey::of(block).unwrap().advice(), kinds);
+    }
+
+    #[test]
+    fn other_messages_are_of_no_key() {
         assert!(UnknownKey::of("invalid type: string").is_none());
     }
 }

@@ -78,6 +78,17 @@ impl ForceName {
             Self::SoleVertical => "vertical force at the sole, footing included",
         }
     }
+
+    /// The same of a block, which has no column.
+    pub fn words_of_block(self) -> &'static str {
+        match self {
+            Self::ColumnShear => "base shear",
+            Self::ColumnBaseMoment => "moment at the base",
+            Self::SoleShear => "shear at the base",
+            Self::SoleVertical => "vertical force at the base",
+            other => other.words(),
+        }
+    }
 }
 
 /// A finding with its quantities, SI units.
@@ -273,6 +284,9 @@ pub enum Finding {
     VerticalLeftOut {
         vertical_g: f64,
         horizontal_g: f64,
+        /// When the structure overturns with it (s).
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        overturns_s: Option<f64>,
         changes: Vec<PeakChange>,
     },
     // what was taken

@@ -13,7 +13,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use rocking::structure::{Body, Kind};
+use rocking::{
+    motion::TimedPeak,
+    structure::{Body, Kind},
+};
 
 /// Largest magnitudes of one history.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -36,6 +39,23 @@ pub struct Peaks {
     /// Impacts above the energy threshold: harder than a fall from 0.02 alpha; of an elastic
     /// structure, all landings.
     pub impacts: usize,
+    /// When they are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub times: Option<PeakTimes>,
+}
+
+/// When displacements are largest (s).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PeakTimes {
+    /// The top's.
+    pub top_displacement_s: f64,
+    /// Its part by rotation of the base.
+    pub rocking_s: f64,
+    /// Its part by bending; none of a rigid body.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bending_s: Option<f64>,
+    /// Of a foot's uplift.
+    pub uplift_s: f64,
 }
 
 /// The reference (Housner's body; an elastic structure on rigid ground) and the structure on its
@@ -55,11 +75,11 @@ pub struct PeakPair {
 }
 
 impl Peaks {
-    /// Of a rigid body's rotations (rad). `slip` is what its centre of mass moves besides (m):
-    /// empty for Housner's.
+    /// Of a rigid body's rotations (rad), `dt` apart (s). `u` is what its centre of mass moves (m):
+    /// none of Housner's, whose rotations tell it.
     pub fn of_rigid(
-        kind: Kind,
-        body: &Body<f64>,
+        (kind, body): (Kind, &Body<f64>),
+        dt: f64,
         theta: &[f64],
         u: Option<&[f64]>,
         impacts: usize,
@@ -67,26 +87,34 @@ impl Peaks {
         let height = top_height(kind, body);
         let top = Body { height, ..*body };
         let largest = |values: &mut dyn Iterator<Item = f64>| {
-            values.fold(0.0, |most: f64, x| most.max(x.abs()))
+            let timed = |(i, value)| TimedPeak { value, time: i as f64 * dt };
+            values.enumerate().map(timed).reduce(TimedPeak::larger).unwrap_or_default()
         };
-        let rocking_m = largest(&mut theta.iter().map(|&theta| top.u(theta)));
-        let top_displacement_m = match u {
+        let rocking = largest(&mut theta.iter().map(|&theta| top.u(theta)));
+        let moved = match u {
             Some(u) => {
                 let above = |(u, theta): (&f64, &f64)| u + (height - body.height) * theta.sin();
                 largest(&mut u.iter().zip(theta).map(above))
             }
-            None => rocking_m,
+            None => rocking,
         };
-        let uplift_m = 2.0 * body.half_width * largest(&mut theta.iter().map(|theta| theta.sin()));
-        let drift_ratio = top_displacement_m / height;
+        let lifted = largest(&mut theta.iter().map(|theta| theta.sin()));
+        let top_displacement_m = moved.value.abs();
+        let times = PeakTimes {
+            top_displacement_s: moved.time,
+            rocking_s: rocking.time,
+            bending_s: None,
+            uplift_s: lifted.time,
+        };
         Self {
             top_displacement_m,
-            rocking_m,
+            rocking_m: rocking.value.abs(),
             bending_m: None,
             feet_moved_m: None,
-            uplift_m,
-            drift_ratio,
+            uplift_m: 2.0 * body.half_width * lifted.value.abs(),
+            drift_ratio: top_displacement_m / height,
             impacts,
+            times: Some(times),
         }
     }
 }
@@ -111,16 +139,18 @@ mod tests {
     fn a_leaning_block_moves_its_top_and_lifts_its_foot_as_geometry_says() {
         let block = Structure::block(2.0, 0.5, 100.0).unwrap();
         let body = block.body::<f64>();
-        let peaks = Peaks::of_rigid(block.kind, &body, &[0.0, 0.1, -0.05], None, 3);
+        let peaks = Peaks::of_rigid((block.kind, &body), 0.5, &[0.0, 0.1, -0.05], None, 3);
         // the middle of the top, (-0.25, 2) from the pivot, turned clockwise by 0.1
         let moved = -0.25 * 0.1_f64.cos() + 2.0 * 0.1_f64.sin() + 0.25;
         assert!((peaks.top_displacement_m - moved).abs() < 1e-12, "{peaks:?}");
         assert!((peaks.uplift_m - 0.5 * 0.1_f64.sin()).abs() < 1e-12, "{peaks:?}");
         assert!((peaks.drift_ratio - moved / 2.0).abs() < 1e-12 && peaks.bending_m.is_none());
+        let times = peaks.times.unwrap();
+        assert_eq!((times.top_displacement_s, times.uplift_s), (0.5, 0.5));
         // an A-frame's top is its centre of mass
         let frame = Structure::paper();
         let body = frame.body::<f64>();
-        let peaks = Peaks::of_rigid(frame.kind, &body, &[0.01], None, 1);
+        let peaks = Peaks::of_rigid((frame.kind, &body), 0.5, &[0.01], None, 1);
         assert!((peaks.top_displacement_m - body.u(0.01)).abs() < 1e-12);
     }
 
@@ -128,7 +158,8 @@ mod tests {
     fn on_springs_the_centre_of_mass_may_move_besides() {
         let block = Structure::block(2.0, 0.5, 100.0).unwrap();
         let body = block.body::<f64>();
-        let peaks = Peaks::of_rigid(block.kind, &body, &[0.1], Some(&[body.u(0.1) + 0.003]), 0);
+        let peaks =
+            Peaks::of_rigid((block.kind, &body), 0.5, &[0.1], Some(&[body.u(0.1) + 0.003]), 0);
         assert!((peaks.top_displacement_m - peaks.rocking_m - 0.003).abs() < 1e-12, "{peaks:?}");
     }
 }

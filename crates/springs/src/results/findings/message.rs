@@ -104,6 +104,7 @@ impl Finding {
             Self::Stands {
                 share_of_overturning,
                 reference_share,
+                largest_at_s,
                 if_feet_hold,
                 of_columns,
                 ..
@@ -116,10 +117,11 @@ impl Finding {
                     format!(" on springs, {} without", percent(reference))
                 });
                 format!(
-                    "it rocks and stands{}: largest rotation {}{} of overturning{other}",
+                    "it rocks and stands{}: largest rotation {}{} of overturning{other}{}",
                     if *if_feet_hold { ", if its feet hold" } else { "" },
                     if *of_columns { "of columns " } else { "" },
-                    percent(*share_of_overturning)
+                    percent(*share_of_overturning),
+                    largest_at_s.map_or(String::new(), |time| format!(", at {}", s(time)))
                 )
             }
             Self::Overturns { time_s, reference_s } => match reference_s {

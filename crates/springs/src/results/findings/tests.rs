@@ -82,7 +82,12 @@ fn what_was_left_out_is_told_with_what_it_would_change() {
         change("moment at column base", 10.8e6, 20.9e6),
         change("another moment", 6e6, 2e6),
     ];
-    let finding = Finding::VerticalLeftOut { vertical_g: 1.84, horizontal_g: 0.99, changes };
+    let finding = Finding::VerticalLeftOut {
+        vertical_g: 1.84,
+        horizontal_g: 0.99,
+        overturns_s: None,
+        changes,
+    };
     assert_eq!(
         finding.message(),
         "with the vertical motion that is left out (1.84 g): moment at column base 20.9 MN m"

@@ -40,6 +40,8 @@ use frames::{
 };
 use rocking::structure::Body;
 
+/// Times as long a step as a program's usual one, tried where it loses most motions.
+const LONGER: [f64; 3] = [2.0, 4.0, 8.0];
 /// K of the units that are tried.
 const TRIED: [f64; 2] = [0.25, 0.1];
 
@@ -61,8 +63,32 @@ pub struct ElasticProgramSprings {
 }
 
 impl ElasticProgramSprings {
-    /// Of a structure, measured on its suite; none if it does not stand.
+    /// Of a structure, measured on its suite; none if it does not stand. Where a step that nobody
+    /// gave loses most motions, the first longer one that does not.
     pub(crate) fn measured(
+        suite: &ElasticSuite,
+        program: FixedStepProgram,
+        body: &Body<f64>,
+        effort: &Effort,
+    ) -> Option<Self> {
+        let first = Self::at_step(suite, program, body, effort)?;
+        if program.step_is_given || !first.loses_most() {
+            return Some(first);
+        }
+        let longer = |times: f64| {
+            let step = times * program.step;
+            Self::at_step(suite, FixedStepProgram { step, ..program }, body, effort)
+        };
+        let mut others = LONGER.into_iter().map_while(longer);
+        Some(others.find(|found| found.measured.is_some() && !found.loses_most()).unwrap_or(first))
+    }
+
+    /// Whether the program loses half of the motions or more.
+    fn loses_most(&self) -> bool {
+        self.measured.as_ref().is_some_and(|errors| !errors.quantile(0.5).is_finite())
+    }
+
+    fn at_step(
         suite: &ElasticSuite,
         program: FixedStepProgram,
         body: &Body<f64>,

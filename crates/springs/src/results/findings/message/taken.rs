@@ -1,33 +1,48 @@
 //! The words of findings on what was taken of a record, and what was not.
 
 use crate::results::findings::{DeckEnd, Finding, ForceName, PeakChange};
-use files::message::{quantity, significant};
+use files::message::{percent, quantity, significant};
 
 /// Quantities that a vertical motion left out changes the most, said in its message; all are in
 /// parameters.json.
 const CHANGES_SAID: usize = 2;
 /// Share below which a quantity is said not to change.
-const LEAST_CHANGE: f64 = 0.01;
+const LEAST_CHANGE: f64 = 0.02;
 
 impl Finding {
     /// What was taken, and what was not.
     pub(super) fn taken(&self) -> String {
         match self {
-            Self::VerticalLeftOut { vertical_g, horizontal_g, changes } => {
-                let mut changes = changes.clone();
-                // what grows the most first, and the axial force, which a section is designed by
+            Self::VerticalLeftOut { vertical_g, overturns_s: Some(time), .. } => format!(
+                "with the vertical motion that is left out ({} g) it overturns at t = {} s",
+                significant(*vertical_g, 3),
+                significant(*time, 4)
+            ),
+            Self::VerticalLeftOut { vertical_g, horizontal_g, changes, .. } => {
+                // what grows the most first; the displacement, and the axial force, which a
+                // section is designed by, in any case
                 let ratio = |c: &PeakChange| c.with / c.without;
-                changes.sort_by(|a, b| ratio(b).total_cmp(&ratio(a)));
-                let axial = |c: &PeakChange| c.quantity == ForceName::Axial.words();
-                let said = changes.iter().enumerate();
-                let changes = |c: &PeakChange| (ratio(c) - 1.0).abs() > LEAST_CHANGE;
-                let said = said.filter(|(i, c)| *i < CHANGES_SAID || axial(c));
-                let said = said.map(|(_, c)| c).filter(|c| changes(c));
-                let changed = said.map(|c| format!("{} {}", c.quantity, quantity(c.with, &c.unit)));
-                let changed: Vec<String> = changed.collect();
+                let told = |c: &&PeakChange| c.quantity != ForceName::SoleVertical.words();
+                let mut all: Vec<&PeakChange> = changes.iter().filter(told).collect();
+                all.sort_by(|a, b| ratio(b).total_cmp(&ratio(a)));
+                let always =
+                    |c: &PeakChange| c.unit == "m" || c.quantity == ForceName::Axial.words();
+                let said = all.iter().enumerate();
+                let said = said.filter(|(i, c)| *i < CHANGES_SAID || always(c)).map(|(_, c)| c);
+                let said = said.filter(|c| (ratio(c) - 1.0).abs() > LEAST_CHANGE);
+                let name = |c: &PeakChange| c.quantity.split(',').next().map(str::to_owned);
+                let words =
+                    |c: &&PeakChange| Some(format!("{} {}", name(c)?, quantity(c.with, &c.unit)));
+                let changed: Vec<String> = said.filter_map(words).collect();
                 let [vertical, across] = [vertical_g, horizontal_g].map(|g| significant(*g, 3));
+                let left_out =
+                    format!("vertical motion ({vertical} g beside {across} g) is left out");
                 match changed.is_empty() {
-                    true => format!("vertical motion ({vertical} g beside {across} g) is left out"),
+                    true if changes.is_empty() => left_out,
+                    true => format!(
+                        "{left_out}: it changes nothing by more than {}",
+                        percent(LEAST_CHANGE)
+                    ),
                     false => format!(
                         "with the vertical motion that is left out ({vertical} g): {}",
                         changed.join(", ")
