@@ -22,7 +22,7 @@ mod cutoff;
 
 use serde::{Deserialize, Serialize};
 
-pub use beside::{ForcesTogether, MOST_CHANGE, OtherForces};
+pub use beside::{ForcesTogether, HeldForce, MOST_CHANGE, OtherForces};
 pub use columns::{COMPARED, ColumnForces, ColumnPeaks, stiffer};
 pub use cutoff::Cutoff;
 
@@ -135,6 +135,10 @@ pub struct StructureForce {
     /// Of a force that holds over that part alone: what it is over the whole record.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub whole_record: Option<OtherForces>,
+    /// Of a force that is larger later and does not hold there: what it is, and holds, over the
+    /// part that can be foretold.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub held: Option<HeldForce>,
     /// The structure held to the ground, below the same cutoff.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fixed: Option<ForcePeak>,
@@ -223,6 +227,7 @@ impl StructureForces {
                     cutoff_hz: peak.cutoff_hz,
                     over_s: seconds,
                     whole_record: None,
+                    held: None,
                     fixed: held.get(kind).map(|peak| peak.filtered),
                     rigid: rigid.and_then(|rigid| rigid_peak(rigid, kind, record.dt)),
                 })
@@ -240,7 +245,14 @@ impl StructureForces {
                 if let Some(whole) =
                     forces.iter_mut().find(|whole| whole.kind == part.kind && !whole.holds)
                 {
-                    *whole = StructureForce { whole_record: Some(whole.others), ..part };
+                    let (later, found) = (whole.others.found.abs(), part.others.found.abs());
+                    // what is larger later is not to be designed by what was before
+                    if later > (1.0 + MOST_CHANGE) * found {
+                        whole.held =
+                            Some(HeldForce { value: part.others.found, over_s: part.over_s });
+                    } else {
+                        *whole = StructureForce { whole_record: Some(whole.others), ..part };
+                    }
                 }
             }
         }

@@ -275,6 +275,11 @@ impl ElasticRocking {
         self.events.iter().any(|event| event.what == What::Lift)
     }
 
+    /// When a corner first lifts (s).
+    pub fn first_lift(&self) -> Option<f64> {
+        self.events.iter().find(|event| event.what == What::Lift).map(|event| event.time)
+    }
+
     /// Samples up to a time (s).
     pub(crate) fn samples_to(&self, time: f64) -> usize {
         (time / self.dt) as usize + 1

@@ -126,7 +126,7 @@ impl AccuracyReport {
             (true, _) => self.sentence(),
             (false, true) if of_record && !self.on_record() => {
                 format!(
-                    "on {}; springs as asked; this record cannot be compared",
+                    "on {}; as asked; not on this record, which is too sensitive",
                     measured.join("; ")
                 )
             }

@@ -56,7 +56,7 @@ pub fn peak_table(run: &Run) -> Option<Table> {
     // whole
     let opposed = pair.reference.rocking_m > pair.reference.top_displacement_m;
     // what is largest after the motion can be foretold is marked
-    let until = run.predictable_to().filter(|_| !run.one_of_many());
+    let until = run.predictable_to();
     let marked = |name: &str, peaks: &Peaks| {
         let times = peaks.times.as_ref().zip(until);
         let late = |(of, when): &PeakTime| {
@@ -66,7 +66,10 @@ pub fn peak_table(run: &Run) -> Option<Table> {
     };
     let any = |peaks: &Peaks| TIMES.iter().any(|(name, _)| marked(name, peaks));
     let largest = match pair.reference.bending_m {
-        _ if any(&pair.reference) || any(&pair.springs) => "largest (* not predictable)",
+        _ if any(&pair.reference) || any(&pair.springs) => match opposed {
+            true => "largest; parts oppose (* not predictable)",
+            false => "largest (* not predictable)",
+        },
         Some(_) if opposed => "largest; parts oppose",
         Some(_) => "largest, each by itself",
         None => "largest",

@@ -26,7 +26,7 @@ use frames::{
     design_forces::{ForceKind, through},
     ensemble::Ensemble,
     frame::Frame,
-    reference::{ReferenceEvent, ReferenceOutcome, Stop, What},
+    reference::{ReferenceOutcome, Stop},
     structure::ElasticStructure,
 };
 use rocking::{
@@ -168,6 +168,14 @@ impl ElasticParts<'_> {
         TimedPeak::of(self.record.dt, &series).unwrap_or_default()
     }
 
+    /// What presses the ground at a time (s), over the weight.
+    fn press_over_weight(&self, time: f64) -> Option<f64> {
+        let weight = self.assembled.frame.total_mass() * rocking::scalar::GRAVITY;
+        let forces = &self.answer.histories.reference.history.forces;
+        let corners = forces.get((time / self.record.dt).round() as usize)?;
+        Some(corners.iter().map(|force| force[1]).sum::<f64>() / weight)
+    }
+
     /// All findings.
     pub fn findings(&self, parameters: &ElasticParameters) -> Vec<Finding> {
         // what of the search was cut is there already
@@ -184,12 +192,15 @@ impl ElasticParts<'_> {
             all.extend((motions > 0).then_some(left_out));
         }
         let needed = self.friction_needed();
-        all.extend((needed.value > self.friction).then_some(Finding::Sliding {
+        all.extend((needed.value > self.friction).then(|| Finding::Sliding {
             needed: needed.value,
             time_s: Some(needed.time),
             available: self.friction,
+            press_over_weight: self.press_over_weight(needed.time),
         }));
-        all.extend(self.feet_apart().map(|apart_m| Finding::FeetApart { apart_m }));
+        let predictable = parameters.on_record.is_none_or(|on| on.foretold_s.is_none());
+        let apart = self.feet_apart();
+        all.extend(apart.map(|apart_m| Finding::FeetApart { apart_m, predictable }));
         all.extend(self.vertical_left_out());
         all.extend(doubts(self.case.doubts()));
         all.extend(springs_findings(parameters));
@@ -318,9 +329,8 @@ impl ElasticParts<'_> {
     /// All that is said of it; `parameters` are those filed.
     pub fn said(&self, parameters: ElasticParameters) -> Run {
         let mut run = alone(parameters);
-        let lift = |event: &&ReferenceEvent| event.what == What::Lift;
-        let first = self.answer.histories.reference.history.events.iter().find(lift);
-        run.taken.facts.extend(first.map(|event| super::first_lift(event.time)));
+        let first = self.answer.histories.reference.history.first_lift();
+        run.taken.facts.extend(first.map(super::first_lift));
         run.taken.record = Some(self.case.excitation.line());
         run.taken.short_record = Some(self.case.excitation.short_line());
         run.taken.assumed = Assumed::all(&self.case.assumptions());

@@ -224,6 +224,9 @@ pub struct Run {
     pub parameters: FiledParameters,
 }
 
+/// The reference of rigid bodies.
+pub(crate) const HOUSNER: &str = "Housner";
+
 /// Findings for a run: answers first, then what weighs most.
 pub fn filed(findings: impl IntoIterator<Item = Finding>) -> Vec<FiledFinding> {
     let mut all: Vec<Finding> = findings.into_iter().collect();
@@ -265,7 +268,7 @@ impl Run {
     /// Where the feet end, if not where they began.
     fn feet_apart(&self) -> String {
         let apart = self.findings.iter().find_map(|filed| match filed.finding {
-            Finding::FeetApart { apart_m } => Some(apart_m),
+            Finding::FeetApart { apart_m, predictable: true } => Some(apart_m),
             _ => None,
         });
         apart.map_or(String::new(), |apart| format!("; its feet end {}", apart_words(apart)))
@@ -279,17 +282,26 @@ impl Run {
         }
     }
 
-    /// Whether the motion is one of many that the record might as well have made.
+    /// Whether the largest rotation, or an overturning, is one of many that the record might as
+    /// well have made.
     pub(crate) fn one_of_many(&self) -> bool {
-        self.findings.iter().any(|f| matches!(f.finding, Finding::IllConditioned { .. }))
+        let holds_to = self.findings.iter().find_map(|filed| match filed.finding {
+            Finding::IllConditioned { holds_to_s, .. } => holds_to_s,
+            _ => None,
+        });
+        let late = |holds_to: f64| {
+            self.findings.iter().any(|filed| match filed.finding {
+                Finding::Stands { largest_at_s, .. } => largest_at_s.is_none_or(|t| t > holds_to),
+                Finding::Overturns { time_s, .. } => time_s > holds_to,
+                _ => false,
+            })
+        };
+        holds_to.is_some_and(late)
     }
 
     /// Whether, and up to when, a motion can be foretold; nothing where nothing rocks or stands.
     fn foretold(&self) -> String {
         let any = |of: fn(&Finding) -> bool| self.findings.iter().any(|filed| of(&filed.finding));
-        if self.one_of_many() {
-            return "; no model predicts it".into();
-        }
         if let Some(until) = self.predictable_to() {
             let s = |time: f64| files::message::significant(time, 4);
             let later = self.findings.iter().find_map(|filed| match filed.finding {
@@ -319,6 +331,7 @@ impl Run {
     pub(crate) fn predictable_to(&self) -> Option<f64> {
         self.findings.iter().find_map(|filed| match filed.finding {
             Finding::ForetoldUpTo { time_s, .. } | Finding::SlidesOn { time_s, .. } => Some(time_s),
+            Finding::IllConditioned { holds_to_s: Some(time_s), .. } => Some(time_s),
             Finding::DeckJudged { judged_s, end: DeckEnd::Foretold | DeckEnd::Slides, .. } => {
                 Some(judged_s)
             }
@@ -334,7 +347,8 @@ impl Run {
         });
         let words = |(model, time_s): (FindingModel, f64)| {
             let of = match model {
-                FindingModel::Reference => self.reference,
+                FindingModel::Reference if self.reference == HOUSNER => "by Housner's equation",
+                FindingModel::Reference => "on rigid ground",
                 FindingModel::Springs => "on springs",
                 FindingModel::Members => "with members",
             };
@@ -344,19 +358,8 @@ impl Run {
     }
 
     /// Whether the motion can be foretold up to a force's largest value.
-    pub(crate) fn foretells(&self, (force, of): (ForceName, DesignForce)) -> bool {
-        // up to where changes of 1e-5 begin to decide
-        let until = self.findings.iter().find_map(|filed| match filed.finding {
-            Finding::DeckJudged { judged_s, end: DeckEnd::Foretold, .. } => Some(judged_s),
-            _ => None,
-        });
-        !self.findings.iter().any(|filed| match &filed.finding {
-            Finding::IllConditioned { .. } => until.is_none_or(|until| of.time_s > until),
-            Finding::ForetoldUpTo { later_forces, .. } | Finding::SlidesOn { later_forces, .. } => {
-                later_forces.contains(&force)
-            }
-            _ => false,
-        })
+    pub(crate) fn foretells(of: &DesignForce) -> bool {
+        of.predictable != Some(false)
     }
 
     /// All that is to be said besides the verdict, gravest first.

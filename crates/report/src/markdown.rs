@@ -108,8 +108,7 @@ fn forces(run: &Run) -> Option<Section> {
     let (forces, words) = (run.design_forces.as_ref()?, run.force_words());
     let cell = |x: Option<f64>, name: ForceName| x.map_or("-".into(), |x| quantity(x, name.unit()));
     let row = |(name, force): (ForceName, DesignForce)| {
-        let doubt =
-            if force.holds && !run.foretells((name, force)) { ", not predictable" } else { "" };
+        let doubt = if force.holds && !Run::foretells(&force) { ", not predictable" } else { "" };
         vec![
             format!("{}{}", words(name), height(&force)),
             force_value(name, &force) + doubt,
@@ -143,9 +142,10 @@ fn forces(run: &Run) -> Option<Section> {
             "{below} A force is given if it changes by less than 5 % with the springs' stiffness \
                 and the mesh, as measured in this run. Column shear is that of the height where it \
                 is largest, axial force that at the base; members.csv has all members. Axial force \
-                is positive in tension. Each is the largest by itself, at its own time: they do \
-                not act together. Not foretold: the motion up to that time is one of many alike, \
-                and no model tells which."
+                is positive in tension. Each is the largest by itself, at its own time{}. Not \
+                predictable: the motion up to that time is one of many alike, and no model tells \
+                which.",
+            if together(run).is_some() { "; what acts together is below" } else { "" }
         )],
         table: Some(Table::new(head).with(forces.all().map(row))),
         ..Section::default()
@@ -158,9 +158,12 @@ pub fn force_value(name: ForceName, force: &DesignForce) -> String {
     let newtons = |x: f64| quantity(x, name.unit());
     let Some(value) = force.value else {
         return match (force.others.and_then(|others| others.range()), force.change) {
-            (Some([low, high]), _) => {
-                format!("withheld: {} to {} with springs and mesh", newtons(low), newtons(high))
-            }
+            (Some([low, high]), _) => format!(
+                "withheld: {} to {} with springs and mesh{}",
+                newtons(low),
+                newtons(high),
+                held_words(name, force)
+            ),
             (None, Some(change)) => format!("withheld: changes by {} on springs", percent(change)),
             (None, None) => "withheld".into(),
         };
@@ -173,6 +176,14 @@ pub fn force_value(name: ForceName, force: &DesignForce) -> String {
     newtons(value) + &part
 }
 
+/// What a withheld force is over the part of the record where it holds, in words.
+pub(crate) fn held_words(name: ForceName, force: &DesignForce) -> String {
+    force.held.map_or(String::new(), |held| {
+        let newtons = quantity(held.value.abs(), name.unit());
+        format!(" ({newtons} to {} s)", significant(held.over_s, 3))
+    })
+}
+
 /// Where along the column, in words, if not at its base.
 pub fn height(force: &DesignForce) -> String {
     let above = force.above_base_m.filter(|above| *above > 0.0);
@@ -181,29 +192,43 @@ pub fn height(force: &DesignForce) -> String {
 
 /// What acts together with the largest forces of a column: pairs for an interaction diagram.
 fn together(run: &Run) -> Option<Section> {
+    let words = run.force_words();
+    let elastic = matches!(run.parameters, FiledParameters::Elastic(_));
     let row = |(name, force): (ForceName, DesignForce)| {
-        let with = force.together.filter(|_| force.holds)?;
+        let with = force.together?;
         let cells =
             [(with.axial_n, "N"), (with.column_base_moment_nm, "N m"), (with.column_shear_n, "N")];
+        let withheld = if force.holds { "" } else { " (withheld)" };
         let at = format!("{} s", significant(force.time_s, 4));
         Some(
             [
-                vec![format!("largest {}", name.words()), at],
+                vec![format!("largest {}{withheld}", words(name)), at],
                 cells.map(|(x, unit)| quantity(x, unit)).into(),
             ]
             .concat(),
         )
     };
     let rows: Vec<_> = run.design_forces?.all().filter_map(row).collect();
-    let head = ["where", "at", "axial force", "moment at column base", "column shear"];
+    let [moment, shear] = [ForceName::ColumnBaseMoment, ForceName::ColumnShear].map(words);
+    let head = ["where", "at", "axial force", moment, shear];
     (!rows.is_empty()).then(|| Section {
         id: "together",
-        title: "What acts together at the column's base".into(),
+        title: if elastic {
+            "What acts together at the column's base"
+        } else {
+            "What acts together at the base"
+        }
+        .into(),
         text: vec![
-            "At the time of each largest force, below the same frequency; means over parts of the \
-                record's time step, so somewhat less than the largest. The largest shear may be \
-                higher up the column. Axial force is positive in tension."
-                .into(),
+            if elastic {
+                "At the time of each largest force, below the same frequency; means over parts of \
+                    the record's time step, so at most the largest. The largest shear may be \
+                    higher up the column. Axial force is positive in tension."
+            } else {
+                "At the time of each largest force, of Housner's body. Axial force is positive in \
+                    tension."
+            }
+            .into(),
         ],
         table: Some(Table::new(head).with(rows)),
         ..Section::default()

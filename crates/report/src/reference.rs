@@ -3,7 +3,7 @@
 
 use dynamics::fem::{self, HistoryOutcome};
 use rocking::{
-    conditioning::Conditioning,
+    conditioning::{Conditioning, holds_to},
     housner::{self, Rocking},
     motion::TimedPeak,
     regime::{self, Regime},
@@ -27,6 +27,9 @@ pub struct HousnerReport {
     pub lifted: bool,
     /// When its pivot left the ground, which ends his solution (s).
     pub left_ground_s: Option<f64>,
+    /// Of a history that is ill-conditioned: up to when its width hardly matters (s), if that is
+    /// not all of it.
+    pub holds_to_s: Option<f64>,
 }
 
 impl HousnerReport {
@@ -44,8 +47,14 @@ impl HousnerReport {
             vertical,
             ..Default::default()
         };
+        let conditioning = Conditioning::new(body, record.dt, &record.accel, &options);
+        let lifted = rocking.outcome != housner::RockingOutcome::NeverMoved;
+        let doubtful = lifted && !conditioning.well_conditioned();
         Self {
-            conditioning: Conditioning::new(body, record.dt, &record.accel, &options),
+            holds_to_s: doubtful
+                .then(|| holds_to(body, record.dt, &record.accel, &options))
+                .flatten(),
+            conditioning,
             regime: regime::check(
                 body,
                 record.dt,
@@ -54,7 +63,7 @@ impl HousnerReport {
                 rocking,
                 friction,
             ),
-            lifted: rocking.outcome != housner::RockingOutcome::NeverMoved,
+            lifted,
             left_ground_s: rocking.left_ground(),
         }
     }
@@ -81,9 +90,15 @@ impl HousnerReport {
                 needed: r.friction_needed.value,
                 time_s: Some(r.friction_needed.time),
                 available,
+                press_over_weight: None,
             });
         } else if self.lifted && r.landing_friction > available {
-            all.push(Finding::Sliding { needed: r.landing_friction, time_s: None, available });
+            all.push(Finding::Sliding {
+                needed: r.landing_friction,
+                time_s: None,
+                available,
+                press_over_weight: None,
+            });
         }
         if let Some(flight) = r.free_flight {
             all.push(Finding::FreeFlight { time_s: flight.time, lowest_over_weight: flight.value });
@@ -163,6 +178,7 @@ pub(crate) fn ill_conditioned(
     (report.lifted && !verdict.well_conditioned).then(|| Finding::IllConditioned {
         moved_by_width: changes.width[0],
         moved_by_scale: changes.scale[0],
+        holds_to_s: report.holds_to_s,
         springs_judged,
     })
 }

@@ -98,6 +98,8 @@ impl RigidRun {
         let softer = softer(&case, &job, &both);
         parameters.design_forces =
             Some(design_forces(kind, &job.body, &job.record, &both, softer.as_ref()));
+        parameters.design_forces =
+            parameters.design_forces.map(|forces| forces.foretold_to(report.holds_to_s));
         let mut run = Self { case, job, front, both, report, of_steps, parameters };
         run.parameters.findings = filed(run.findings());
         run
@@ -245,7 +247,7 @@ fn alone(parameters: Parameters) -> Run {
     let accuracy = parameters.assessment.as_ref().map(AccuracyReport::of_rigid);
     Run {
         taken: taken(&parameters.structure, parameters.restitution()),
-        reference: "Housner",
+        reference: super::HOUSNER,
         peaks: parameters.peaks,
         friction_needed: None,
         design_forces: parameters.design_forces,

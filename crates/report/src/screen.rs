@@ -25,10 +25,14 @@ struct Crowding {
     /// Lines of the accuracy, and sets of motions that it is told on.
     accuracy: usize,
     measured: usize,
-    /// Lines of the verdict, and of the program with fixed time steps.
+    /// Lines of the verdict.
     sentence: usize,
     /// Whether the deck's own command stands beside that which checks it.
     both_commands: bool,
+    /// Lines of the program with fixed time steps.
+    program: usize,
+    /// Whether impacts and the friction needed stand in the table of peaks.
+    all_peaks: bool,
 }
 
 /// All that there is room for.
@@ -39,6 +43,8 @@ const SPACIOUS: Crowding = Crowding {
     measured: 2,
     sentence: 3,
     both_commands: true,
+    program: 3,
+    all_peaks: true,
 };
 
 /// What leaves most room.
@@ -49,15 +55,19 @@ const CLOSEST: Crowding = Crowding {
     measured: 1,
     sentence: 2,
     both_commands: false,
+    program: 2,
+    all_peaks: true,
 };
 
 /// The first is taken if every warning has all its lines there; else the first of the others where
 /// each has what it needs; else the last.
-const CROWDING: [Crowding; 4] = [
+const CROWDING: [Crowding; 6] = [
     SPACIOUS,
     Crowding { empty_line: false, ..SPACIOUS },
     Crowding { assumed: 2, ..CLOSEST },
     CLOSEST,
+    Crowding { program: 1, ..CLOSEST },
+    Crowding { program: 1, all_peaks: false, ..CLOSEST },
 ];
 
 /// What is said where no springs suit steps of one size.
@@ -71,6 +81,8 @@ pub const SHEET: &str = "sap2000_by_hand.txt";
 const LONGEST_PATH: usize = 58;
 /// Lines that a doubt of what was given may take.
 const LONGEST_CHECK: usize = 2;
+/// Rows of the table of peaks that give way to warnings.
+const ASIDE: [&str; 2] = ["impacts", "friction needed"];
 /// What a doubt of what was given begins with.
 const CHECK: &str = "CHECK     ";
 /// What the report's line begins with.
@@ -127,7 +139,9 @@ fn answer(run: &Run, written: &Written, crowding: Crowding) -> Vec<String> {
         lines.push(String::new());
     }
     at_most(crowding.sentence, &mut lines, "", &run.verdict());
-    lines.extend(peak_table(run).iter().flat_map(Table::lines));
+    let beside = |line: &String| !ASIDE.iter().any(|name| line.starts_with(name));
+    let peaks = peak_table(run).into_iter().flat_map(|table| table.lines());
+    lines.extend(peaks.filter(|line| crowding.all_peaks || beside(line)));
     lines.extend(forces::lines(run));
     springs(run, &mut lines);
     if let Some(accuracy) = &run.accuracy {
@@ -231,7 +245,7 @@ fn next(run: &Run, written: &Written, crowding: Crowding, lines: &mut Vec<String
             let typed = both && written.decks && run.sap2000 && program.csi;
             let sheet = if typed { format!("; to type: decks/{SHEET}") } else { String::new() };
             let line = program.line() + &sheet;
-            at_most(crowding.sentence, lines, &format!("{:10}", program.short()), &line);
+            at_most(crowding.program, lines, &format!("{:10}", program.short()), &line);
             if written.decks && program.deck_of_even_steps {
                 let deck = format!("python3 {}", written.file(&format!("decks/{EVEN_DECK}")));
                 wrap(lines, "its deck  ", &deck);

@@ -126,6 +126,28 @@ fn moved(changed: &[f64], u: &[f64]) -> f64 {
     Some(nrmse(changed, u)).filter(|x| x.is_finite()).unwrap_or(1.0)
 }
 
+/// Share of the largest displacement by which a history that can be foretold is moved at most.
+pub const MOVED_BY_PEAK: f64 = 0.05;
+
+/// Up to when 0.1 % more or less width moves a history by less than a twentieth of its largest
+/// displacement (s); none: to its end. Record and options as in [`solve`].
+pub fn holds_to(
+    body: &Body<f64>,
+    dt: f64,
+    accel: &[f64],
+    options: &RockingOptions<f64>,
+) -> Option<f64> {
+    let bodies = [0.0, CHANGES[0], -CHANGES[0]]
+        .map(|change| Body { half_width: body.half_width * (1.0 + change), ..*body });
+    let [u, more, less] = bodies.map(|body| solve(&body, dt, accel, options).motion(&body).u);
+    let most = MOVED_BY_PEAK * u.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
+    let moved = |i: &usize| {
+        let by = |other: &[f64]| other.get(*i).is_none_or(|x| (x - u[*i]).abs() > most);
+        by(&more) || by(&less)
+    };
+    (0..u.len()).find(moved).map(|i| i.saturating_sub(1) as f64 * dt)
+}
+
 /// Twelve histories beside the unchanged one, all in lock-step.
 pub fn changes(body: &Body<f64>, dt: f64, accel: &[f64], options: &RockingOptions<f64>) -> Changes {
     let restitution = options.restitution.unwrap_or_else(|| body.restitution());

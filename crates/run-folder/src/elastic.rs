@@ -175,11 +175,13 @@ impl ElasticRun {
             peak_ratio_fem: largest(1, rotations) / alpha,
             peak_drift_reference_m: largest(0, drifts),
             peak_drift_fem_m: largest(1, drifts),
+            lifts_s: reference.history.first_lift(),
             landings_reference: reference.history.landings().count(),
             touches_fem: fem.contacts.iter().filter(|contact| contact.touches).count(),
             energy_residual: fem.energy_residual,
             near: answer.ensemble,
         };
+        let foretold = on_record.foretold_s;
         let bearing = ForceQuantities::new(&assembled, &answer, record.dt);
         let mut parameters = ElasticParameters {
             on_record: Some(on_record),
@@ -212,7 +214,7 @@ impl ElasticRun {
             row.on_record = on_record;
         }
         run.parameters.design_forces =
-            Some(design_forces(&run.assembled.structure, &run.answer.design));
+            Some(design_forces(&run.assembled.structure, &run.answer.design).foretold_to(foretold));
         run.parameters.findings = filed(run.parts().findings(&run.parameters));
         run
     }

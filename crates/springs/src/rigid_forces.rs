@@ -17,6 +17,7 @@ use crate::{
 };
 use dynamics::compare::Match;
 use dynamics::fem::{Demands, History, between_landings};
+use frames::design_forces::ForcesTogether;
 use rocking::{
     housner::Rocking,
     motion::TimedPeak,
@@ -71,7 +72,14 @@ pub fn design_forces(
                 let all = TimedPeak::of(dt, &series).unwrap_or_default();
                 let same = kept.iter().map(|&i| series[i].abs()).fold(0.0, f64::max);
                 let change = relative(same, springs[k].value);
+                let row = housner.get((all.time / dt).round() as usize);
+                let together = row.filter(|_| kind == Kind::Block).map(|row| ForcesTogether {
+                    column_shear_n: row[1],
+                    axial_n: row[3],
+                    column_base_moment_nm: row[2],
+                });
                 DesignForce {
+                    together,
                     rigid: Some(all.value),
                     ..DesignForce::measured(all.value, all.time, change)
                 }

@@ -14,6 +14,15 @@ pub struct ForcesTogether {
     pub column_base_moment_nm: f64,
 }
 
+/// What a force is, and holds, over a part of the record from its start.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct HeldForce {
+    /// With its sign (N or N m).
+    pub value: f64,
+    /// The part's length (s).
+    pub over_s: f64,
+}
+
 /// Largest change of a force that holds.
 pub const MOST_CHANGE: f64 = 0.05;
 

@@ -30,6 +30,8 @@ pub fn design_forces(structure: &ElasticStructure, of: &StructureForces) -> Desi
             above_base_m: force.above_base_m,
             over_s: force.whole_record.map(|_| force.over_s),
             whole_record: force.whole_record,
+            held: force.held,
+            predictable: None,
             others: Some(force.others),
         })
     };

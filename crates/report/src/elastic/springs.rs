@@ -50,9 +50,13 @@ fn accuracy(a: &ElasticAssessment, on_record: Option<&OnRecord>) -> AccuracyRepo
             peaks_allowed: of_peaks,
         })
     };
-    let part = on_record.filter(|on| !on.whole).map(|on| significant(on.compared_s, 3));
-    let this =
-        part.map_or(THIS_RECORD.to_string(), |seconds| format!("{THIS_RECORD} to {seconds} s"));
+    let part = on_record.filter(|on| !on.whole).map(|on| {
+        let rocks = on.lifts_s.map_or(String::new(), |lifts| {
+            format!(", {} s of rocking", significant((on.compared_s - lifts).max(0.0), 2))
+        });
+        format!("{THIS_RECORD} to {} s{rocks}", significant(on.compared_s, 3))
+    });
+    let this = part.unwrap_or_else(|| THIS_RECORD.to_string());
     let all = [on(&this, m.record), on("synthetic motions", m.motions), on("releases", m.releases)];
     AccuracyReport {
         history_asked: of_history,

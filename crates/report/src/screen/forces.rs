@@ -1,7 +1,7 @@
 //! Design forces on the screen: two to a line, the largest moment first.
 
 use super::{WIDTH, lines::wrap};
-use crate::{FiledParameters, Run};
+use crate::{FiledParameters, Run, markdown::held_words};
 use files::message::{percent, quantity, significant};
 use frames::structure::ElasticStructure;
 use springs::results::{DesignForce, DesignForces, ForceName};
@@ -13,10 +13,14 @@ enum Told {
     Both,
     /// The axial force alone.
     Axial,
-    /// Neither.
-    Neither,
+    /// When alone.
+    Time,
+    /// Nothing.
+    Value,
 }
 
+/// What landings are on, where there is room for it.
+const GROUND: &str = " on rigid ground";
 /// Blanks before a cell, and between two.
 const INDENT: usize = 2;
 
@@ -24,8 +28,9 @@ const INDENT: usize = 2;
 pub(super) fn lines(run: &Run) -> Vec<String> {
     let Some(forces) = &run.design_forces else { return Vec::new() };
     // an asterisk where some are, a word where all are
-    let doubted = |one: (ForceName, DesignForce)| one.1.holds && !run.foretells(one);
-    let [some, every] = [forces.all().any(doubted), forces.all().all(|one| !run.foretells(one))];
+    let doubted = |one: (ForceName, DesignForce)| one.1.holds && !Run::foretells(&one.1);
+    let [some, every] =
+        [forces.all().any(doubted), forces.all().all(|one| !Run::foretells(&one.1))];
     // of one motion of many the head tells of all
     let mark = if some && !every && !run.one_of_many() { "*" } else { "" };
     let doubt = match run.one_of_many() {
@@ -37,7 +42,9 @@ pub(super) fn lines(run: &Run) -> Vec<String> {
     let notes: Vec<String> = changes(run, forces).into_iter().chain(doubt).chain(rest).collect();
     let notes = if notes.is_empty() { String::new() } else { format!(" ({})", notes.join("; ")) };
     let mut lines = Vec::new();
-    wrap(&mut lines, "", &format!("design forces{}{notes}", which(run, forces)));
+    let head = format!("design forces{}{notes}", which(run, forces));
+    let head = if head.chars().count() > WIDTH { head.replace(GROUND, "") } else { head };
+    wrap(&mut lines, "", &head);
     // the report has the vertical force, too
     let mut all: Vec<_> =
         forces.all().filter(|(name, _)| *name != ForceName::SoleVertical).collect();
@@ -49,7 +56,7 @@ pub(super) fn lines(run: &Run) -> Vec<String> {
         };
         all.iter().map(cell).collect()
     };
-    let rows = [Told::Both, Told::Axial, Told::Neither];
+    let rows = [Told::Both, Told::Axial, Told::Time, Told::Value];
     let rows = rows.into_iter().find_map(|told| in_pairs(&cells(told)));
     let one_each =
         || cells(Told::Both).iter().map(|cell| format!("  {}", cell.join("  "))).collect();
@@ -62,9 +69,9 @@ fn which(run: &Run, forces: &DesignForces) -> String {
     match (&run.parameters, forces.below_hz) {
         (FiledParameters::Rigid(_), _) => " between impacts".into(),
         (_, Some(hz)) => {
-            format!(" below {} Hz, landings on rigid ground included", significant(hz, 3))
+            format!(" below {} Hz, landings{GROUND} included", significant(hz, 3))
         }
-        (_, None) => ", landings on rigid ground included".into(),
+        (_, None) => format!(", landings{GROUND} included"),
     }
 }
 
@@ -111,23 +118,27 @@ fn value(name: ForceName, force: &DesignForce, mark: &str, told: Told) -> String
     let Some(largest) = force.value else {
         let found = force.others.and_then(|others| others.range());
         return match found {
-            Some([low, high]) => format!("withheld: {} to {}", newtons(low), newtons(high)),
+            Some([low, high]) => {
+                let held = match told {
+                    Told::Value => String::new(),
+                    _ => held_words(name, force),
+                };
+                format!("withheld: {} to {}{held}", newtons(low), newtons(high))
+            }
             None => "withheld".into(),
         };
     };
     let when = match force.is_at_rest() {
+        _ if told == Told::Value => String::new(),
         true => ", own weight".to_string(),
         false => format!(" at {} s", significant(force.time_s, 4)),
     };
     let up = force.above_base_m.filter(|above| *above > 0.0 && told == Told::Both);
     let up = up.map_or(String::new(), |above| format!(", {} m up", significant(above, 3)));
-    let whole = force.over_s.and(force.whole_record);
-    if let Some(whole) = whole {
-        return format!("{}{mark}; over all {}", newtons(largest), newtons(whole.found));
-    }
     // what a section bears at the same time
     let axial = force.together.filter(|_| name == ForceName::ColumnBaseMoment);
-    let axial = axial.filter(|_| told != Told::Neither).map(|together| together.axial_n);
+    let axial =
+        axial.filter(|_| matches!(told, Told::Both | Told::Axial)).map(|together| together.axial_n);
     let axial = axial.map_or(String::new(), |axial| format!(", axial {}", quantity(axial, "N")));
     format!("{}{mark}{when}{up}{axial}", newtons(largest))
 }

@@ -19,11 +19,14 @@ fn urgency(finding: &Finding) -> usize {
     match finding {
         Finding::IllConditioned { .. } => 0,
         Finding::VerticalLeftOut { .. } => 2,
-        Finding::ForcesHeldInPart { .. } => 3,
-        Finding::FeetApart { .. } => 5,
-        _ => 4,
+        Finding::ForcesHeldInPart { .. } | Finding::ForceWithheld { .. } => 4,
+        Finding::FeetApart { .. } => 6,
+        _ => 5,
     }
 }
+
+/// A deck that ends early or is left out.
+const DECK: usize = 3;
 
 /// Whether it is about what was given, which is told at once.
 pub(super) fn is_doubt(filed: &FiledFinding) -> bool {
@@ -93,11 +96,9 @@ fn ends_a_part(word: &str) -> bool {
     !word.ends_with(|c: char| c.is_ascii_digit()) && !WANTS.contains(&word)
 }
 
-/// Warnings in words, the gravest first; those of decks last.
+/// Warnings in words, the gravest first.
 pub(super) fn warnings(run: &Run, of_decks: &[String]) -> Vec<Warned> {
-    let mut all: Vec<_> =
-        run.remarks().filter(|f| f.weight >= Weight::Warning && !is_doubt(f)).collect();
-    all.sort_by_key(|filed| (std::cmp::Reverse(filed.weight), urgency(&filed.finding)));
+    let of_run = run.remarks().filter(|f| f.weight >= Weight::Warning && !is_doubt(f));
     let of_deck = |line: &String| {
         let (message, remedy) = line.split_once(": ").unwrap_or((line, ""));
         let remedy =
@@ -105,10 +106,15 @@ pub(super) fn warnings(run: &Run, of_decks: &[String]) -> Vec<Warned> {
         // a file's name stays as it is
         Warned { name: WARNING, message: format!("{message}."), remedy, whole: false }
     };
-    all.into_iter()
-        .map(|filed| Warned::of(WARNING, filed))
-        .chain(of_decks.iter().map(of_deck))
-        .collect()
+    let grave = |filed: &FiledFinding| {
+        let key = (std::cmp::Reverse(filed.weight), urgency(&filed.finding));
+        (key, Warned::of(WARNING, filed))
+    };
+    let decks =
+        of_decks.iter().map(|line| ((std::cmp::Reverse(Weight::Warning), DECK), of_deck(line)));
+    let mut all: Vec<_> = of_run.map(grave).chain(decks).collect();
+    all.sort_by_key(|(key, _)| *key);
+    all.into_iter().map(|(_, warned)| warned).collect()
 }
 
 /// Lines that a warning wants.
@@ -120,15 +126,16 @@ pub(super) fn warning_lines(warning: &Warned) -> usize {
 /// has a second.
 pub(super) fn tell(warnings: &[Warned], place: &str, lines: &mut Vec<String>) {
     let room = (LINES - 1).saturating_sub(lines.len());
-    let told = warnings.len().min(room);
-    let mut given = vec![1; told];
-    let mut left = room - told;
-    // first those whose numbers are not to be cut
-    for (given, warning) in given.iter_mut().zip(warnings).filter(|(_, warning)| warning.whole) {
-        let more = (warning_lines(warning) - 1).min(left);
-        *given += more;
-        left -= more;
-    }
+    let mut left = room;
+    // what each needs, as far as there is room: those whose numbers are not to be cut need all
+    let needs = |warning: &Warned| {
+        let least = warning.least_lines().min(left);
+        left -= least;
+        (least > 0).then_some(least)
+    };
+    let mut given: Vec<usize> = warnings.iter().map_while(needs).collect();
+    let told = given.len();
+    left = room - given.iter().sum::<usize>();
     for most in 2..=LONGEST_WARNING {
         for (given, warning) in given.iter_mut().zip(warnings) {
             if left > 0 && *given < most && warning_lines(warning) >= most {

@@ -5,6 +5,8 @@ use frames::structure::ElasticStructure;
 /// The key of a mass.
 const MASS: &str = "mass_kg";
 
+/// The section of keys that describe a structure.
+const SECTION: &str = "structure";
 /// A key of rigid bodies alone.
 const RIGID: &str = "total_height_m";
 
@@ -42,7 +44,14 @@ impl UnknownKey {
             let kinds: Vec<String> = of_others.iter().map(|kind| format!("\"{kind}\"")).collect();
             return format!("it is a key of kind = {}", kinds.join(" or "));
         }
+        // keys of [structure] outside of it
+        if self.known.iter().any(|known| known == SECTION) && !kinds_with(&self.key).is_empty() {
+            return format!("put it under [{SECTION}]");
+        }
         match &self.near {
+            Some(near) if other_unit(&self.key, near) => {
+                format!("give \"{near}\", in that unit")
+            }
             Some(near) => format!("did you mean \"{near}\"?"),
             None if self.known.is_empty() => "remove it".into(),
             None => format!("known are {}", self.known.join(", ")),
@@ -57,9 +66,17 @@ fn kinds_with(key: &str) -> Vec<&'static str> {
         let error = toml::from_str::<ElasticStructure>(&asked).err();
         let of = error
             .and_then(|error| UnknownKey::of(error.message().lines().next().unwrap_or_default()));
-        of.is_some_and(|of| of.known.iter().any(|known| known == key))
+        key == "kind" || of.is_some_and(|of| of.known.iter().any(|known| known == key))
     };
     ["pier", "frame", "aframe"].into_iter().filter(has).collect()
+}
+
+/// Whether a key is a known one in another unit: mass_t where mass_kg is known.
+fn other_unit(key: &str, known: &str) -> bool {
+    let quantity = |key: &str| key.rsplit_once('_').map(|(quantity, _)| quantity.to_owned());
+    let unit = |key: &str| key.rsplit_once('_').map(|(_, unit)| unit.to_owned());
+    let units = ["t", "kn", "n", "lb", "kip", "mm", "cm", "ft", "in", "mn", "knm2", "mnm2", "g"];
+    quantity(key) == quantity(known) && unit(key).is_some_and(|unit| units.contains(&&*unit))
 }
 
 /// Whether one is an end of the other.
@@ -106,6 +123,20 @@ mod tests {
         let block = "unknown field `column_mass_kg`, expected one of `total_height_m`, `mass_kg`";
         let kinds = "it is a key of kind = \"pier\" or \"frame\"";
         assert_eq!(UnknownKey::of(block).unwrap().advice(), kinds);
+    }
+
+    #[test]
+    fn a_key_in_another_unit_and_one_outside_its_section_are_told() {
+        for (key, advice) in [
+            ("column_mass_t", "give \"column_mass_kg\", in that unit"),
+            ("height_mm", "give \"height_m\", in that unit"),
+        ] {
+            assert_eq!(self::advice(key), advice);
+        }
+        let outside = "unknown field `height_m`, expected one of `structure`, `record`";
+        assert_eq!(UnknownKey::of(outside).unwrap().advice(), "put it under [structure]");
+        let kind = "unknown field `kind`, expected one of `structure`, `record`";
+        assert_eq!(UnknownKey::of(kind).unwrap().advice(), "put it under [structure]");
     }
 
     #[test]

@@ -124,6 +124,9 @@ pub struct OnRecord {
     pub peak_drift_reference_m: f64,
     /// The same on the springs (m).
     pub peak_drift_fem_m: f64,
+    /// When the reference lifts first (s).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lifts_s: Option<f64>,
     /// Landings of the reference.
     pub landings_reference: usize,
     /// Touches of corners on the springs.
@@ -351,6 +354,7 @@ mod tests {
             peak_ratio_fem: 2.0,
             peak_drift_reference_m: 0.1,
             peak_drift_fem_m: 0.2,
+            lifts_s: Some(1.5),
             landings_reference: 4,
             touches_fem: 9,
             energy_residual: 1e-7,

@@ -141,6 +141,10 @@ pub enum Finding {
     IllConditioned {
         moved_by_width: f64,
         moved_by_scale: f64,
+        /// Up to when 0.1 % of the width moves it by less than a twentieth of its peak (s); none:
+        /// to its end.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        holds_to_s: Option<f64>,
         springs_judged: bool,
     },
     ForetoldUpTo {
@@ -257,6 +261,9 @@ pub enum Finding {
         needed: f64,
         time_s: Option<f64>,
         available: f64,
+        /// Force that presses the ground then, over the weight, of an elastic structure.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        press_over_weight: Option<f64>,
     },
     FreeFlight {
         time_s: f64,
@@ -280,6 +287,9 @@ pub enum Finding {
     /// Feet that landed elsewhere than they stood leave the structure bent, held by friction.
     FeetApart {
         apart_m: f64,
+        /// Whether the motion can be foretold to its end.
+        #[serde(default)]
+        predictable: bool,
     },
     VerticalLeftOut {
         vertical_g: f64,

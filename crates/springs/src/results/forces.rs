@@ -1,7 +1,7 @@
 //! Forces to design with: those that do not change with the springs or the mesh, measured in the
 //! run that gives them.
 
-use frames::design_forces::{ForcesTogether, MOST_CHANGE, OtherForces};
+use frames::design_forces::{ForcesTogether, HeldForce, MOST_CHANGE, OtherForces};
 use serde::{Deserialize, Serialize};
 
 use super::{Finding, ForceName, PeakChange};
@@ -53,6 +53,13 @@ pub struct DesignForce {
     /// What it is over the whole record then.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub whole_record: Option<OtherForces>,
+    /// Of a force that is larger later and does not hold there: what it is, and holds, over the
+    /// part of the record that can be foretold.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub held: Option<HeldForce>,
+    /// Whether the motion can be foretold up to `time_s`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub predictable: Option<bool>,
 }
 
 impl DesignForce {
@@ -73,6 +80,8 @@ impl DesignForce {
             others: None,
             over_s: None,
             whole_record: None,
+            held: None,
+            predictable: None,
         }
     }
 
@@ -95,8 +104,10 @@ impl DesignForce {
             stiffer: by(others.stiffer),
         };
         let (others, whole_record) = (self.others.map(all), self.whole_record.map(all));
+        let held = self.held.map(|held| HeldForce { value: held.value * length, ..held });
         Self {
             whole_record,
+            held,
             value: by(self.value),
             raw: by(self.raw),
             fixed: by(self.fixed),
@@ -142,6 +153,25 @@ pub struct DesignForces {
 }
 
 impl DesignForces {
+    /// The same, each marked whether the motion, foretold up to `until` (s), is foretold up to its
+    /// largest value; all are where there is no end to that.
+    pub fn foretold_to(mut self, until: Option<f64>) -> Self {
+        let all = [
+            &mut self.column_shear_n,
+            &mut self.column_base_moment_nm,
+            &mut self.column_top_moment_nm,
+            &mut self.axial_n,
+            &mut self.axial_tension_n,
+            &mut self.apex_moment_nm,
+            &mut self.sole_shear_n,
+            &mut self.sole_vertical_n,
+        ];
+        for force in all.into_iter().flatten() {
+            force.predictable = Some(until.is_none_or(|until| force.time_s <= until));
+        }
+        self
+    }
+
     /// Every force that applies, with its name.
     pub fn all(&self) -> impl Iterator<Item = (ForceName, DesignForce)> {
         [

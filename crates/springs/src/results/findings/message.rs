@@ -17,6 +17,9 @@ fn on(model: FindingModel) -> &'static str {
 /// Part by which largest rotations on springs and without differ, both of which are then said.
 const SHARES_DIFFER: f64 = 0.05;
 
+/// Share of the weight below which the ground's force is said where friction is.
+const LIGHT: f64 = 0.5;
+
 fn s(time: f64) -> String {
     format!("{} s", significant(time, 4))
 }
@@ -168,17 +171,24 @@ impl Finding {
     /// What a comparison one to one is worth.
     fn comparison(&self) -> String {
         match self {
-            Self::IllConditioned { moved_by_width, springs_judged, .. } => {
+            Self::IllConditioned { moved_by_width, holds_to_s, springs_judged, .. } => {
                 let judged = if *springs_judged {
                     "; the springs were judged on synthetic motions"
                 } else {
                     ""
                 };
-                format!(
-                    "ill-conditioned: 0.1 % more width moves it by {}, so no model predicts its \
-                        end{judged}",
-                    percent(*moved_by_width)
-                )
+                let moved = percent(*moved_by_width);
+                match holds_to_s {
+                    Some(time) => format!(
+                        "ill-conditioned: 0.1 % more width moves the history by {moved}, and no \
+                            model predicts it after {}{judged}",
+                        s(*time)
+                    ),
+                    None => format!(
+                        "ill-conditioned: 0.1 % more width moves the history by {moved}, but never \
+                            by a twentieth of its peak{judged}"
+                    ),
+                }
             }
             Self::ForetoldUpTo { time_s, later_forces, .. } => format!(
                 "{}a change of a millionth grows above a thousandth of the peak after t = {}: no \
@@ -355,9 +365,13 @@ impl Finding {
     /// Whether the models hold.
     fn regime(&self) -> String {
         match self {
-            Self::Sliding { needed, time_s, available } => {
+            Self::Sliding { needed, time_s, available, press_over_weight } => {
                 let when =
                     time_s.map_or("in a landing".into(), |time| format!("at t = {}", s(time)));
+                let light = press_over_weight.filter(|share| *share < LIGHT);
+                let when = light.map_or(when.clone(), |share| {
+                    format!("{when}, under {} of the weight", percent(share))
+                });
                 format!(
                     "the feet would slide: friction of {} is needed {when}, {} is available",
                     significant(*needed, 3),
@@ -384,9 +398,10 @@ impl Finding {
                 };
                 format!("the history {} ends at t = {}: {why}", on(*model), s(*time_s))
             }
-            Self::FeetApart { apart_m } => format!(
-                "at the end the feet stand {} than at first: friction keeps the structure bent",
-                apart_words(*apart_m)
+            Self::FeetApart { apart_m, predictable } => format!(
+                "at the end the feet stand {} than at first{}: friction keeps the structure bent",
+                apart_words(*apart_m),
+                if *predictable { "" } else { " (not predictable)" }
             ),
             Self::SmallestSteps { model, steps } => {
                 format!(

@@ -2,7 +2,12 @@ use super::*;
 
 #[test]
 fn a_finding_is_filed_with_its_quantities_and_read_back() {
-    let finding = Finding::Sliding { needed: 0.61, time_s: Some(3.25), available: 0.5 };
+    let finding = Finding::Sliding {
+        needed: 0.61,
+        time_s: Some(3.25),
+        available: 0.5,
+        press_over_weight: None,
+    };
     let filed = FiledFinding::from(finding.clone());
     let json = serde_json::to_value(&filed).unwrap();
     assert_eq!(json["finding"], "sliding");
