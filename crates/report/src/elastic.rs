@@ -2,6 +2,7 @@
 //! springs.
 
 mod forces;
+mod peaks;
 pub(crate) mod springs;
 
 use self::springs::{alone, springs_findings};
@@ -9,10 +10,7 @@ use super::{Assumed, FiledParameters, Run, Section, Table, doubts, judged};
 use ::springs::{
     case::{ElasticCase, doubts::Doubt},
     parameters::elastic::{ElasticParameters, OnRecord},
-    results::{
-        DesignForce, DesignForces, Ending, Finding, FindingModel, ForceName, PeakChange, PeakPair,
-        PeakTimes, Peaks,
-    },
+    results::{DesignForce, DesignForces, Ending, Finding, FindingModel, ForceName, PeakChange},
 };
 use dynamics::{
     fem::HistoryOutcome,
@@ -25,10 +23,10 @@ use frames::{
     assembled::{Assembled, Sway},
     design_forces::{ForceKind, through},
     ensemble::Ensemble,
-    frame::Frame,
     reference::{ReferenceOutcome, Stop},
     structure::ElasticStructure,
 };
+pub use peaks::{SAME_IMPACT, impacts};
 use rocking::{
     members::Members,
     motion::{TimedPeak, peak},
@@ -42,9 +40,6 @@ const LEAST_PRESS: f64 = 0.05;
 
 /// Share of the feet's distance above which it is said that they end elsewhere than they began.
 const LEAST_APART: f64 = 1e-3;
-
-/// Time within which touches are one impact (1/p).
-pub const SAME_IMPACT: f64 = 0.1;
 
 /// What a run is told from.
 pub struct ElasticParts<'a> {
@@ -92,68 +87,6 @@ pub fn top_height(structure: &ElasticStructure) -> f64 {
 }
 
 impl ElasticParts<'_> {
-    /// Largest displacements of both models, up to where the shorter history ends.
-    pub fn peaks(&self) -> PeakPair {
-        let ElasticHistories { reference, fem, sways, .. } = &self.answer.histories;
-        let n = reference.history.q.len().min(fem.q.len());
-        let n = self
-            .answer
-            .histories
-            .falls(self.assembled.structure.body().alpha())
-            .map_or(n, |falls| falls.min(n));
-        let frame = &self.assembled.frame;
-        let of = |q: &dyn Fn(usize) -> Vec<f64>, k: usize, impacts: usize| {
-            let [mut top, mut rocking, mut bending, mut lifted] = [TimedPeak::default(); 4];
-            let mut moved: f64 = 0.0;
-            for i in 0..n {
-                let q = q(i);
-                let now = |value: f64| TimedPeak { value, time: i as f64 * self.record.dt };
-                for (watched, pair) in self.assembled.watched.iter().zip(sways) {
-                    let Sway { rotation, drift } = &pair[k];
-                    let [x, ..] = frame.displacement(watched.top, &q);
-                    let feet = watched.base.feet_moved(frame, &q);
-                    moved = moved.max(feet.abs());
-                    top = top.larger(now(x));
-                    // across the base's axis, which has turned
-                    let across = drift[i] * rotation[i].cos();
-                    rocking = rocking.larger(now(x - feet - across));
-                    bending = bending.larger(now(drift[i]));
-                }
-                lifted = lifted.larger(now(uplift(frame, &q)));
-            }
-            let top_displacement_m = top.value.abs();
-            let times = PeakTimes {
-                top_displacement_s: top.time,
-                rocking_s: rocking.time,
-                bending_s: Some(bending.time),
-                uplift_s: lifted.time,
-            };
-            Peaks {
-                top_displacement_m,
-                rocking_m: rocking.value.abs(),
-                bending_m: Some(bending.value.abs()),
-                feet_moved_m: Some(moved),
-                uplift_m: lifted.value,
-                drift_ratio: top_displacement_m / top_height(&self.assembled.structure),
-                impacts,
-                times: Some(times),
-            }
-        };
-        let landings = reference.history.landings().map(|event| event.time);
-        let touches = fem.contacts.iter().filter(|contact| contact.touches).map(|c| c.time);
-        let rest = SAME_IMPACT / self.assembled.structure.body().p_squared().sqrt();
-        PeakPair {
-            reference: of(
-                &|i| reference.history.q[i].as_slice().to_vec(),
-                0,
-                impacts(landings, rest),
-            ),
-            springs: of(&|i| fem.q[i].clone(), 1, impacts(touches, rest)),
-            reference_ends_s: None,
-            with_members: None,
-        }
-    }
-
     /// Friction coefficient that the structure on rigid ground needs, and when (s): the ground's
     /// forces on all corners together.
     fn friction_needed(&self) -> TimedPeak {
@@ -362,22 +295,6 @@ impl ElasticParts<'_> {
     }
 }
 
-/// Impacts among touches of corners (s): one that follows the last within `rest` (s) belongs to the
-/// same.
-pub fn impacts(touches: impl Iterator<Item = f64>, rest: f64) -> usize {
-    let (mut last, mut count) = (f64::NEG_INFINITY, 0);
-    for time in touches {
-        count += usize::from(time - last > rest);
-        last = time;
-    }
-    count
-}
-
-/// Height of the highest corner above the ground (m).
-fn uplift(frame: &Frame, q: &[f64]) -> f64 {
-    frame.places().iter().map(|place| place.reach(q).place[1]).fold(0.0, f64::max)
-}
-
 fn foretold(on: &OnRecord, forces: Option<&DesignForces>) -> Option<Finding> {
     let (foretold, softer_hz) = (on.foretold_s?, on.softer_omega_n_hz);
     let late = |(name, force): (ForceName, DesignForce)| {
@@ -410,31 +327,4 @@ fn largest_at(sways: &[[Sway; 2]]) -> usize {
 /// Largest magnitude of a series of every base.
 pub fn largest(sways: &[[Sway; 2]], k: usize, of: fn(&Sway) -> &[f64]) -> f64 {
     sways.iter().map(|pair| peak(of(&pair[k])).abs()).fold(0.0, f64::max)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A structure that is moved as a whole: its feet move with it, and no corner lifts.
-    #[test]
-    fn feet_of_a_structure_that_has_moved_are_where_they_landed() {
-        let text = "kind = 'aframe'\nheight_m = 24.0\nwidth_m = 6.0\nmass_kg = 3e5\n\
-            foot_mass_kg = 1e4\nea_n = 1e10\nei_nm2 = 1e10\ndamping_ratio = 0.03\n";
-        let structure: ElasticStructure = toml::from_str(text).unwrap();
-        let Assembled { frame, watched, .. } =
-            Assembled::new(structure.checked().unwrap()).unwrap();
-        let feet_moved = |q: &[f64]| watched[0].base.feet_moved(&frame, q);
-        let mut q =
-            vec![
-                0.0;
-                (0..frame.nodes()).flat_map(|node| frame.coordinates(node)).flatten().count()
-            ];
-        assert_eq!([feet_moved(&q), uplift(&frame, &q)], [0.0; 2]);
-        for [x, ..] in (0..frame.nodes()).map(|node| frame.coordinates(node)) {
-            q[x.unwrap()] += 0.25;
-        }
-        assert!((feet_moved(&q) - 0.25).abs() < 1e-15);
-        assert_eq!(uplift(&frame, &q), 0.0);
-    }
 }

@@ -158,10 +158,9 @@ pub fn force_value(name: ForceName, force: &DesignForce) -> String {
     let newtons = |x: f64| quantity(x, name.unit());
     let Some(value) = force.value else {
         return match (force.others.and_then(|others| others.range()), force.change) {
-            (Some([low, high]), _) => format!(
-                "withheld: {} to {} with springs and mesh{}",
-                newtons(low),
-                newtons(high),
+            (Some(range), _) => format!(
+                "withheld: {} with springs and mesh{}",
+                range_words(name, range),
                 held_words(name, force)
             ),
             (None, Some(change)) => format!("withheld: changes by {} on springs", percent(change)),
@@ -174,6 +173,16 @@ pub fn force_value(name: ForceName, force: &DesignForce) -> String {
         .over_s
         .map_or(String::new(), |over| format!(" (to {} s{whole})", significant(over, 3)));
     newtons(value) + &part
+}
+
+/// Between what a withheld force lies: the unit once, if it is the same.
+pub(crate) fn range_words(name: ForceName, range: [f64; 2]) -> String {
+    let [low, high] = range.map(|x| quantity(x.abs(), name.unit()));
+    let unit = |words: &str| words.split_once(' ').map(|(_, unit)| unit.to_owned());
+    match low.split_once(' ') {
+        Some((number, _)) if unit(&low) == unit(&high) => format!("{number} to {high}"),
+        _ => format!("{low} to {high}"),
+    }
 }
 
 /// What a withheld force is over the part of the record where it holds, in words.
@@ -300,7 +309,7 @@ mod tests {
         let between = DesignForce { others: Some(others), ..changes };
         assert_eq!(
             force_value(ForceName::AxialTension, &between),
-            "withheld: 2.48 MN to 2.66 MN with springs and mesh"
+            "withheld: 2.48 to 2.66 MN with springs and mesh"
         );
         assert_eq!(
             force_value(ForceName::Axial, &DesignForce { change: None, ..changes }),

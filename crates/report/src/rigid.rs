@@ -2,6 +2,7 @@
 
 pub mod at_once;
 mod limits;
+mod peaks;
 pub mod program;
 pub mod tables;
 
@@ -13,24 +14,20 @@ use super::{
     unit_of,
 };
 use decks::{equal_steps, stepped_history};
-use dynamics::{
-    compare::Match,
-    fem::History,
-    spring::{Design, Springs},
-};
+use dynamics::spring::{Design, Springs};
 use files::message::{percent, quantity, significant};
 use fixed_steps::FixedStepHistory;
 use limits::springs_findings;
+use peaks::peaks;
 use rocking::{
     members::Members,
-    overturning::samples_until,
-    structure::{Body, Kind, Structure},
+    structure::{Kind, Structure},
 };
 use springs::{
     answers::{MemberHistory, ModelComparison, both, with_members},
     case::{Case, Objective, doubts::Doubt},
     parameters::{ConditioningRow, PaperProcedure, Parameters},
-    results::{Finding, PeakPair, Peaks},
+    results::Finding,
     rigid_forces::design_forces,
     tuning::{job::Job, paper_procedure::table_1},
 };
@@ -288,38 +285,6 @@ fn taken(structure: &Structure, restitution: f64) -> Taken {
     ];
     let facts = facts.into_iter().map(|(name, value)| (name.to_string(), value)).collect();
     Taken::new(text, facts)
-}
-
-/// Largest displacements of both models, up to an overturning; `dt` is that of the record (s).
-fn peaks(kind: Kind, body: &Body<f64>, dt: f64, both: &ModelComparison) -> PeakPair {
-    let firm = |firm: Option<usize>, all: usize| firm.unwrap_or(all);
-    let of = |matched: &Match, theta: &[f64], u: Option<&[f64]>, impacts: usize| {
-        let fell = [matched.overturned_housner_s, matched.overturned_fem_s]
-            .into_iter()
-            .flatten()
-            .reduce(f64::min);
-        let n = samples_until(fell, dt).min(theta.len());
-        Peaks::of_rigid((kind, body), dt, &theta[..n], u.map(|u| &u[..n]), impacts)
-    };
-    let ends = both.rocking.left_ground();
-    let springs = |m: &Match, history: &History| {
-        // beyond the end of Housner's solution there is no energy threshold to count by
-        let impacts =
-            ends.map_or_else(|| firm(m.impacts_fem_firm, m.impacts_fem), |_| history.impacts());
-        of(m, &history.motion.theta, Some(&history.motion.u), impacts)
-    };
-    let m = &both.matched;
-    PeakPair {
-        reference: of(
-            m,
-            &both.rocking.theta,
-            None,
-            firm(m.impacts_housner_firm, m.impacts_housner),
-        ),
-        reference_ends_s: ends,
-        springs: springs(m, &both.fem),
-        with_members: both.with.as_ref().map(|with| springs(&with.matched, &with.history)),
-    }
 }
 
 /// The history on springs of a quarter of Omega_n, where Housner's cannot tell whether forces are

@@ -1,7 +1,10 @@
 //! Design forces on the screen: two to a line, the largest moment first.
 
 use super::{WIDTH, lines::wrap};
-use crate::{FiledParameters, Run, markdown::held_words};
+use crate::{
+    FiledParameters, Run,
+    markdown::{held_words, range_words},
+};
 use files::message::{percent, quantity, significant};
 use frames::structure::ElasticStructure;
 use springs::results::{DesignForce, DesignForces, ForceName};
@@ -118,12 +121,12 @@ fn value(name: ForceName, force: &DesignForce, mark: &str, told: Told) -> String
     let Some(largest) = force.value else {
         let found = force.others.and_then(|others| others.range());
         return match found {
-            Some([low, high]) => {
+            Some(range) => {
                 let held = match told {
-                    Told::Value => String::new(),
+                    Told::Time | Told::Value => String::new(),
                     _ => held_words(name, force),
                 };
-                format!("withheld: {} to {}{held}", newtons(low), newtons(high))
+                format!("withheld: {}{held}", range_words(name, range))
             }
             None => "withheld".into(),
         };

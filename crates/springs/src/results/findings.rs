@@ -6,9 +6,11 @@ use serde::{Deserialize, Serialize};
 use dynamics::effort::CutBy;
 
 mod advice;
+mod force_name;
 mod message;
 mod not_done;
 
+pub use force_name::ForceName;
 pub use message::apart_words;
 pub use not_done::NotDone;
 
@@ -48,47 +50,6 @@ pub enum Ending {
     Unstable,
     /// The numbers overflowed, or no step could be made.
     Stopped,
-}
-
-/// A design force, by its key in parameters.json.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum ForceName {
-    ColumnShear,
-    ColumnBaseMoment,
-    ColumnTopMoment,
-    Axial,
-    AxialTension,
-    ApexMoment,
-    SoleShear,
-    SoleVertical,
-}
-
-impl ForceName {
-    /// As an engineer says it.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::ColumnShear => "column shear",
-            Self::ColumnBaseMoment => "moment at column base",
-            Self::ColumnTopMoment => "moment at column top",
-            Self::Axial => "axial force",
-            Self::AxialTension => "tension",
-            Self::ApexMoment => "moment at the apex",
-            Self::SoleShear => "shear at the sole, footing included",
-            Self::SoleVertical => "vertical force at the sole, footing included",
-        }
-    }
-
-    /// The same of a block, which has no column.
-    pub fn words_of_block(self) -> &'static str {
-        match self {
-            Self::ColumnShear => "base shear",
-            Self::ColumnBaseMoment => "moment at the base",
-            Self::SoleShear => "shear at the base",
-            Self::SoleVertical => "vertical force at the base",
-            other => other.words(),
-        }
-    }
 }
 
 /// A finding with its quantities, SI units.

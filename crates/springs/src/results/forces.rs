@@ -221,16 +221,6 @@ impl DesignForces {
     }
 }
 
-impl ForceName {
-    /// Its unit.
-    pub fn unit(self) -> &'static str {
-        match self {
-            Self::ColumnBaseMoment | Self::ColumnTopMoment | Self::ApexMoment => "N m",
-            _ => "N",
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

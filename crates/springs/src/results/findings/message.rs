@@ -1,8 +1,9 @@
 //! The words of findings.
 
+mod regime;
 mod taken;
 
-use super::{Ending, Finding, FindingModel, ForceName};
+use super::{Finding, FindingModel, ForceName};
 use dynamics::effort::CutBy;
 use files::message::{percent, quantity, significant};
 
@@ -16,9 +17,6 @@ fn on(model: FindingModel) -> &'static str {
 
 /// Part by which largest rotations on springs and without differ, both of which are then said.
 const SHARES_DIFFER: f64 = 0.05;
-
-/// Share of the weight below which the ground's force is said where friction is.
-const LIGHT: f64 = 0.5;
 
 fn s(time: f64) -> String {
     format!("{} s", significant(time, 4))
@@ -356,58 +354,6 @@ impl Finding {
                 format!(
                     "{motions} motions near the record met the bound on a history's steps, and are \
                         left out"
-                )
-            }
-            _ => String::new(),
-        }
-    }
-
-    /// Whether the models hold.
-    fn regime(&self) -> String {
-        match self {
-            Self::Sliding { needed, time_s, available, press_over_weight } => {
-                let when =
-                    time_s.map_or("in a landing".into(), |time| format!("at t = {}", s(time)));
-                let light = press_over_weight.filter(|share| *share < LIGHT);
-                let when = light.map_or(when.clone(), |share| {
-                    format!("{when}, under {} of the weight", percent(share))
-                });
-                format!(
-                    "the feet would slide: friction of {} is needed {when}, {} is available",
-                    significant(*needed, 3),
-                    significant(*available, 3)
-                )
-            }
-            Self::FreeFlight { time_s, .. } => {
-                format!(
-                    "free flight: the ground would have to pull the pivot down at t = {}",
-                    s(*time_s)
-                )
-            }
-            Self::TooStocky { restitution, friction_needed, .. } => format!(
-                "the body is too stocky to land without bouncing: friction of {} is needed, \
-                    equation 2 gives e = {}",
-                significant(*friction_needed, 3),
-                significant(*restitution, 3)
-            ),
-            Self::HistoryEndsEarly { model, time_s, ending } => {
-                let why = match ending {
-                    Ending::WorkBound => "the bound on steps was reached",
-                    Ending::Unstable => "the rotation lost its balance",
-                    Ending::Stopped => "it could not be followed further",
-                };
-                format!("the history {} ends at t = {}: {why}", on(*model), s(*time_s))
-            }
-            Self::FeetApart { apart_m, predictable } => format!(
-                "at the end the feet stand {} than at first{}: friction keeps the structure bent",
-                apart_words(*apart_m),
-                if *predictable { "" } else { " (not predictable)" }
-            ),
-            Self::SmallestSteps { model, steps } => {
-                format!(
-                    "{steps} steps of the history {} were taken at the smallest size, whatever \
-                        their error",
-                    on(*model)
                 )
             }
             _ => String::new(),
