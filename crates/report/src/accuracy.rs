@@ -125,10 +125,7 @@ impl AccuracyReport {
         match (measured.is_empty(), self.reached) {
             (true, _) => self.sentence(),
             (false, true) if of_record && !self.on_record() => {
-                format!(
-                    "on {}; as asked; not on this record, which is too sensitive",
-                    measured.join("; ")
-                )
+                format!("on {}; as asked; this record not compared", measured.join("; "))
             }
             (false, true) => format!("{}; as asked", measured.join("; ")),
             (false, false) => format!("{}; NOT as asked ({})", measured.join("; "), self.asked()),

@@ -24,7 +24,7 @@ const ROWS: [PeakRow; 7] = [
     (ROCKING, |p| p.bending_m.map(|_| p.rocking_m), meters),
     (BENDING, |p| p.bending_m, meters),
     (MOVED, |p| p.feet_moved_m, meters),
-    (DRIFT, |p| Some(p.drift_ratio), |x| format!("{} %", significant(1e2 * x, 3))),
+    (DRIFT, |p| Some(p.drift_ratio), |x| format!("{} %", significant(1e2 * exact(x), 3))),
     (UPLIFT, |p| Some(p.uplift_m), meters),
     ("impacts", |p| Some(p.impacts as f64), |x| format!("{x:.0}")),
 ];
@@ -40,8 +40,13 @@ const TIMES: [PeakTime; 5] = [
 /// Below this a displacement is rounding (m).
 const ROUNDING_M: f64 = 1e-12;
 
+/// Without rounding.
+fn exact(x: f64) -> f64 {
+    if x.abs() < ROUNDING_M { 0.0 } else { x }
+}
+
 fn meters(x: f64) -> String {
-    quantity(if x.abs() < ROUNDING_M { 0.0 } else { x }, "m")
+    quantity(exact(x), "m")
 }
 
 /// The table; none of springs without a record.
@@ -89,7 +94,7 @@ pub fn peak_table(run: &Run) -> Option<Table> {
         let difference = match name {
             "impacts" => String::new(),
             _ if pair.reference_ends_s.is_some() => "-".into(),
-            _ if a > 0.0 => percent(b / a - 1.0),
+            _ if a > ROUNDING_M => percent(b / a - 1.0),
             _ => "-".into(),
         };
         // a rigid body's are those of some strength

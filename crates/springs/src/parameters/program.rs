@@ -123,10 +123,13 @@ pub struct ProgramOnRecord {
     pub gives_up_s: Option<f64>,
 }
 
+/// Below this a displacement is rounding (m).
+const ROUNDING_M: f64 = 1e-12;
+
 impl ProgramOnRecord {
     /// From the largest top displacements of a history and of the reference, where both stand.
     pub fn of(tops: Option<[f64; 2]>, gives_up_s: Option<f64>) -> Self {
-        let top = tops.filter(|[_, reference]| *reference > 0.0 && gives_up_s.is_none());
+        let top = tops.filter(|[_, reference]| *reference > ROUNDING_M && gives_up_s.is_none());
         Self { top: top.map(|[found, reference]| found / reference - 1.0), gives_up_s }
     }
 }
