@@ -93,8 +93,8 @@ fn over_steps() -> Result<(), BenchError> {
             series.push((integrator_name.to_string(), points));
         }
         series.retain(|(_, points)| !points.is_empty());
-        let remark = "motions of a seed that nothing was chosen on; where the program loses half of them \
-            there is no point";
+        let remark = "motions of a seed that nothing was chosen on; where the program loses half \
+            of them there is no point";
         sheets.push((format!("{name}\n{} {remark}", of.motions.len()), series));
     }
     let series: Vec<Vec<ToolSeries>> = sheets
