@@ -6,7 +6,7 @@
 //! cargo bench --bench fixed_steps -- search       # beside the best of 500 springs drawn at random
 //! ```
 //!
-//! Motions are of seed 31, and 77 for the search to be judged on: no spring of the program was
+//! Motions are of seed 31; the search chooses on those of seed 77. No spring of the program was
 //! chosen on either.
 
 use std::path::Path;

@@ -13,7 +13,11 @@ use report::{
     filed,
     reference::{self, HousnerReport},
 };
-use run_folder::{folder::of_one_run, place::file_in, place::write_file, tables::history_csv};
+use run_folder::{
+    folder::of_one_run,
+    place::{file_in, write_file},
+    tables::{Instants, history_csv, members_csv},
+};
 use springs::{answers::both, parameters::Parameters};
 
 /// Options of `tune simulate`.
@@ -33,8 +37,8 @@ pub struct SimulateOptions {
     /// Write the histories here (CSV); into a folder as history.csv
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Write base shear and the forces in legs, tendon and dampers here (CSV); into a folder as
-    /// members.csv
+    /// Write base shear and the forces in legs or at a block's base, in tendon and dampers here
+    /// (CSV), at the record's samples; into a folder as members.csv
     #[arg(long, value_name = "FILE")]
     forces: Option<PathBuf>,
 }
@@ -55,8 +59,11 @@ pub fn run(o: &SimulateOptions) -> Result<(), CommandError> {
         write_file(path, history_csv(record.dt, &both).as_bytes())?;
     }
     if let Some(path) = &forces {
-        let demands = both.with.as_ref().map_or(&both.demands, |with| &with.demands);
-        write_file(path, run_folder::tables::members_csv(record.dt, demands).as_bytes())?;
+        let of = both.with.as_ref();
+        let of = of.map_or((&both.fem, &both.demands), |with| (&with.history, &with.demands));
+        let body = (parameters.structure.kind, &body);
+        let members = members_csv(body, record.dt, of, Instants::Samples);
+        write_file(path, members.as_bytes())?;
     }
     terminal::stderr(excitation.line());
     let housner = HousnerReport::new(&body, e, &record, &both.rocking, friction);

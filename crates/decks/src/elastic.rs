@@ -84,7 +84,9 @@ impl ElasticDeck<'_> {
             DeckFormat::Sap2000 => sap2000::tables(&self.sap2000(format)?),
             DeckFormat::Sap2000Sheet => sap2000::sheet(&self.sap2000(format)?),
             DeckFormat::Csv => plain::csv(&self.places()),
-            DeckFormat::Markdown => plain::markdown(self.title, &self.places()),
+            DeckFormat::Markdown => {
+                plain::markdown(self.title, self.even()?.as_ref(), &self.places())
+            }
         })
     }
 

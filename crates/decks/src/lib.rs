@@ -296,7 +296,9 @@ fn export_model(model: &DeckModel, format: DeckFormat) -> Result<String, ExportE
         DeckFormat::Sap2000 => sap2000::tables(&sap2000::SapModel::rigid(model)),
         DeckFormat::Sap2000Sheet => sap2000::sheet(&sap2000::SapModel::rigid(model)),
         DeckFormat::Csv => plain::csv(&model.places()),
-        DeckFormat::Markdown => plain::markdown(&model.title(), &model.places()),
+        DeckFormat::Markdown => {
+            plain::markdown(&model.title(), model.even.as_ref(), &model.places())
+        }
     })
 }
 

@@ -2,8 +2,9 @@
 
 use std::fmt::Write;
 
-use super::model::digits;
+use super::{model::digits, stepping::EvenSteps};
 use dynamics::spring::{Chain, Springs};
+use files::message::quantity;
 
 /// A foot or corner by name, and the units under it.
 pub(super) type NamedSprings = (String, Springs<Chain<f64>>);
@@ -29,8 +30,14 @@ pub(super) fn csv(places: &[NamedSprings]) -> String {
     text
 }
 
-/// A table to read and to paste, with the unit's picture.
-pub(super) fn markdown(title: &str, places: &[NamedSprings]) -> String {
+/// What springs are for whose steps follow touches.
+const FOR_OPENSEES: &str = "These springs are for the OpenSees deck of the same run, which \
+    shortens its steps towards touches (TRBDF2).\nA program with steps of one size needs others: \
+    `program` in parameters.json, or sap2000_by_hand.txt.\n\n";
+
+/// A table to read and to paste, with the unit's picture and what the springs are
+/// for: the steps of one size, if they are for such.
+pub(super) fn markdown(title: &str, even: Option<&EvenSteps>, places: &[NamedSprings]) -> String {
     let mut text = format!("# Ground springs\n\n{title}\n\n");
     text.push_str(
         "Under each foot, vertically and horizontally: foot - gap, k1 - m2 - (k2 parallel with c) \
@@ -39,6 +46,14 @@ pub(super) fn markdown(title: &str, places: &[NamedSprings]) -> String {
     text.push_str(
         "The gaps press and never pull; the horizontal k1 acts only while its foot presses.\n\n",
     );
+    let steps = |even: &EvenSteps| {
+        format!(
+            "These springs are for a program with steps of {} ({}).\n\n",
+            quantity(even.step, "s"),
+            even.integrator
+        )
+    };
+    text.push_str(&even.map_or(FOR_OPENSEES.into(), steps));
     text.push_str(
         "| foot | direction | k1 [N/m] | k2 [N/m] | m2 [kg] | c [N s/m] |\n\
             |---|---|---|---|---|---|\n",

@@ -74,6 +74,8 @@ pub(crate) struct EvenSteps {
     pub newton: usize,
     /// Unbalance over weight below which they have arrived, where the program tests that.
     pub unbalance: Option<f64>,
+    /// Whether the mass has some rotational inertia because such steps need it.
+    pub adds_inertia: bool,
     /// Of the motions that the run tried, those that the program loses, if that is half or more.
     pub lost: Option<(usize, usize)>,
 }
@@ -95,6 +97,7 @@ impl EvenSteps {
             touches,
             newton: row.newton_iterations,
             unbalance,
+            adds_inertia: false,
             lost: row.mostly_lost(),
         })
     }
@@ -168,7 +171,9 @@ impl Stepped {
         // as decks hold it
         let program = Parameters { structure: with_inertia(&program.structure), ..program };
         let touches = if stepping == Stepping::Touches { AT_TOUCHES } else { 1 };
-        let mut steps = EvenSteps::new(row, touches)?;
+        let given = parameters.structure.rotational_inertia_kgm2;
+        let adds_inertia = program.structure.rotational_inertia_kgm2 != given;
+        let mut steps = EvenSteps { adds_inertia, ..EvenSteps::new(row, touches)? };
         if touches == 1 {
             return Ok(Self { parameters: program, steps });
         }
@@ -270,7 +275,7 @@ impl SteppedDeck {
         let line = self.gives_up_s.map(|time| {
             format!(
                 "{name} ends at {time:.2} s, where the emulation of its steps gives up: take \
-                    another integrator or a shorter step"
+                    another integrator or another step, longer ones too"
             )
         });
         (self.text, line)

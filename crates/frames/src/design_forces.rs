@@ -147,6 +147,20 @@ pub struct StructureForce {
     pub rigid: Option<ForcePeak>,
 }
 
+impl StructureForce {
+    /// Of the whole record, and does not hold: beside what it is, and holds, over a part of it.
+    /// What is larger later is not to be designed by what was before.
+    fn beside(self, part: Self) -> Self {
+        let (later, found) = (self.others.found.abs(), part.others.found.abs());
+        if later > (1.0 + MOST_CHANGE) * found {
+            let held = Some(HeldForce { value: part.others.found, over_s: part.over_s });
+            Self { held, ..self }
+        } else {
+            Self { whole_record: Some(self.others), ..part }
+        }
+    }
+}
+
 /// All forces of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StructureForces {
@@ -245,14 +259,7 @@ impl StructureForces {
                 if let Some(whole) =
                     forces.iter_mut().find(|whole| whole.kind == part.kind && !whole.holds)
                 {
-                    let (later, found) = (whole.others.found.abs(), part.others.found.abs());
-                    // what is larger later is not to be designed by what was before
-                    if later > (1.0 + MOST_CHANGE) * found {
-                        whole.held =
-                            Some(HeldForce { value: part.others.found, over_s: part.over_s });
-                    } else {
-                        *whole = StructureForce { whole_record: Some(whole.others), ..part };
-                    }
+                    *whole = whole.beside(part);
                 }
             }
         }
@@ -271,7 +278,6 @@ pub struct OtherMotion {
 }
 
 /// A structure on given springs through another record.
-///
 ///
 /// # Errors
 /// The structure does not stand.
@@ -324,4 +330,43 @@ fn rigid_peak(rigid: &RigidForces, kind: ForceKind, dt: f64) -> Option<ForcePeak
     } else {
         peak
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn force(found: f64, over_s: f64, holds: bool) -> StructureForce {
+        let others = OtherForces { found, ..OtherForces::default() };
+        StructureForce {
+            kind: ForceKind::AxialTension,
+            value: holds.then_some(found),
+            time_s: 3.0,
+            holds,
+            together: None,
+            above_base_m: None,
+            others,
+            raw: found,
+            cutoff_hz: None,
+            over_s,
+            whole_record: None,
+            held: None,
+            fixed: None,
+            rigid: None,
+        }
+    }
+
+    #[test]
+    fn a_force_that_is_larger_later_is_withheld() {
+        let given = force(1.33e6, 40.0, false).beside(force(0.2e6, 10.0, true));
+        assert_eq!((given.value, given.holds), (None, false));
+        assert_eq!(given.held, Some(HeldForce { value: 0.2e6, over_s: 10.0 }));
+    }
+
+    #[test]
+    fn a_force_that_is_not_larger_later_is_that_of_the_part_that_holds() {
+        let given = force(-0.202e6, 40.0, false).beside(force(0.2e6, 10.0, true));
+        assert_eq!((given.value, given.over_s, given.held), (Some(0.2e6), 10.0, None));
+        assert_eq!(given.whole_record.map(|others| others.found), Some(-0.202e6));
+    }
 }

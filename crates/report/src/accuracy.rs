@@ -16,6 +16,9 @@ use springs::{
 /// What the record of the run is called.
 pub(crate) const THIS_RECORD: &str = "this record";
 
+/// Of a record whose motion cannot be predicted: two models that are equally right part on it.
+const UNJUDGED: &str = "this record is too sensitive to judge springs";
+
 /// An error measured on a record or on a set of motions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AccuracyOn {
@@ -112,7 +115,7 @@ impl AccuracyReport {
     }
 
     /// The same for a screen: on the first so many of the record and the sets of motions; that this
-    /// record, if there is one, says nothing of springs.
+    /// record, if there is one, does not judge springs.
     pub fn short(&self, sets: usize, of_record: bool) -> String {
         let on = |(i, row): (usize, &AccuracyOn)| {
             let [peaks, nrmse] = if i == 0 { ["peaks within ", "NRMSE "] } else { [""; 2] };
@@ -125,7 +128,7 @@ impl AccuracyReport {
         match (measured.is_empty(), self.reached) {
             (true, _) => self.sentence(),
             (false, true) if of_record && !self.on_record() => {
-                format!("on {}; as asked; this record not compared", measured.join("; "))
+                format!("on {}; as asked; {UNJUDGED}", measured.join("; "))
             }
             (false, true) => format!("{}; as asked", measured.join("; ")),
             (false, false) => format!("{}; NOT as asked ({})", measured.join("; "), self.asked()),

@@ -4,37 +4,23 @@ use super::{FiledParameters, Run, Table};
 use files::message::{percent, quantity, significant};
 use springs::results::{PeakTimes, Peaks};
 
-/// A row's name, its quantity, and its words.
-type PeakRow = (&'static str, fn(&Peaks) -> Option<f64>, fn(f64) -> String);
-/// A quantity's name, and when it is largest (s).
-type PeakTime = (&'static str, fn(&PeakTimes) -> Option<f64>);
+/// A row's name, its quantity, its words, and when it is largest (s).
+type PeakRow =
+    (&'static str, fn(&Peaks) -> Option<f64>, fn(f64) -> String, fn(&PeakTimes) -> Option<f64>);
 
-const TOP: &str = "top displacement";
-const ROCKING: &str = "  by rocking";
-const BENDING: &str = "  by bending";
-const DRIFT: &str = "  drift ratio";
-const UPLIFT: &str = "uplift";
 /// The row of what feet move.
 const MOVED: &str = "  feet moved";
 /// Share of the top's displacement below which it is not said.
 const NOT_SAID: f64 = 0.02;
 
 const ROWS: [PeakRow; 7] = [
-    (TOP, |p| Some(p.top_displacement_m), meters),
-    (ROCKING, |p| p.bending_m.map(|_| p.rocking_m), meters),
-    (BENDING, |p| p.bending_m, meters),
-    (MOVED, |p| p.feet_moved_m, meters),
-    (DRIFT, |p| Some(p.drift_ratio), |x| format!("{} %", significant(1e2 * exact(x), 3))),
-    (UPLIFT, |p| Some(p.uplift_m), meters),
-    ("impacts", |p| Some(p.impacts as f64), |x| format!("{x:.0}")),
-];
-
-const TIMES: [PeakTime; 5] = [
-    (TOP, |t| Some(t.top_displacement_s)),
-    (ROCKING, |t| Some(t.rocking_s)),
-    (BENDING, |t| t.bending_s),
-    (DRIFT, |t| Some(t.top_displacement_s)),
-    (UPLIFT, |t| Some(t.uplift_s)),
+    ("top displacement", |p| Some(p.top_displacement_m), meters, |t| Some(t.top_displacement_s)),
+    ("  by rocking", |p| p.bending_m.map(|_| p.rocking_m), meters, |t| Some(t.rocking_s)),
+    ("  by bending", |p| p.bending_m, meters, |t| t.bending_s),
+    (MOVED, |p| p.feet_moved_m, meters, |_| None),
+    ("  drift ratio", |p| Some(p.drift_ratio), percents, |t| Some(t.top_displacement_s)),
+    ("uplift", |p| Some(p.uplift_m), meters, |t| Some(t.uplift_s)),
+    ("impacts", |p| Some(p.impacts as f64), |x| format!("{x:.0}"), |_| None),
 ];
 
 /// Below this a displacement is rounding (m).
@@ -47,6 +33,10 @@ fn exact(x: f64) -> f64 {
 
 fn meters(x: f64) -> String {
     quantity(exact(x), "m")
+}
+
+fn percents(x: f64) -> String {
+    format!("{} %", significant(1e2 * exact(x), 3))
 }
 
 /// The table; none of springs without a record.
@@ -62,14 +52,11 @@ pub fn peak_table(run: &Run) -> Option<Table> {
     let opposed = pair.reference.rocking_m > pair.reference.top_displacement_m;
     // what is largest after the motion can be foretold is marked
     let until = run.predictable_to();
-    let marked = |name: &str, peaks: &Peaks| {
+    let late = |when: fn(&PeakTimes) -> Option<f64>, peaks: &Peaks| {
         let times = peaks.times.as_ref().zip(until);
-        let late = |(of, when): &PeakTime| {
-            times.is_some_and(|(times, until)| *of == name && when(times) > Some(until))
-        };
-        TIMES.iter().any(late)
+        times.is_some_and(|(times, until)| when(times) > Some(until))
     };
-    let any = |peaks: &Peaks| TIMES.iter().any(|(name, _)| marked(name, peaks));
+    let any = |peaks: &Peaks| ROWS.iter().any(|row| late(row.3, peaks));
     let largest = match pair.reference.bending_m {
         _ if any(&pair.reference) || any(&pair.springs) => match opposed {
             true => "largest; parts oppose (* not predictable)",
@@ -85,7 +72,7 @@ pub fn peak_table(run: &Run) -> Option<Table> {
     };
     let mut head = vec![largest.to_string(), reference, on_springs.into(), "difference".into()];
     head.extend(with.map(|_| "with members".into()));
-    let row = |(name, of, words): PeakRow| {
+    let row = |(name, of, words, when): PeakRow| {
         let (a, b) = (of(&pair.reference)?, of(&pair.springs)?);
         // feet that land where they stood move by the height of the lift times the rotation alone
         if name == MOVED && a.max(b) < NOT_SAID * pair.reference.top_displacement_m {
@@ -106,7 +93,7 @@ pub fn peak_table(run: &Run) -> Option<Table> {
             ""
         };
         let cell = |value: f64, peaks: &Peaks| {
-            format!("{}{}", words(value), if marked(name, peaks) { "*" } else { "" })
+            format!("{}{}", words(value), if late(when, peaks) { "*" } else { "" })
         };
         let mut row = vec![
             format!("{name}{counted}"),
@@ -140,7 +127,7 @@ pub fn summary(run: &Run) -> Table {
     if let Some(pair) = &run.peaks {
         let springs = pair.with_members.unwrap_or(pair.springs);
         let units = ["m", "m", "m", "m", "1", "m", "1"];
-        for ((name, of, _), unit) in ROWS.into_iter().zip(units) {
+        for ((name, of, ..), unit) in ROWS.into_iter().zip(units) {
             let (a, b) = (of(&pair.reference), of(&springs));
             if a.or(b).is_some() {
                 row(name.trim(), unit, [a, b, None]);

@@ -309,7 +309,13 @@ impl Run {
                 _ => None,
             });
             let later = if later.is_some() { "; the largest rotation is not" } else { "" };
-            return format!("; predictable to {} s{later}", s(until));
+            let until_then = self.peaks.and_then(|pair| Some((pair.foretold?, pair.reference)));
+            let until_then = until_then
+                .filter(|_| !later.is_empty())
+                .filter(|(part, all)| part.top_displacement_m[0] < all.top_displacement_m)
+                .map(|(part, _)| files::message::quantity(part.top_displacement_m[0], "m"));
+            let until_then = until_then.map_or(String::new(), |top| format!(" (top {top})"));
+            return format!("; predictable to {} s{until_then}{later}", s(until));
         }
         let in_part = any(|f| match f {
             Finding::DeckJudged { end, .. } => *end != DeckEnd::Record,
@@ -329,14 +335,7 @@ impl Run {
 
     /// Up to when a motion can be foretold (s), if that is not all of it.
     pub(crate) fn predictable_to(&self) -> Option<f64> {
-        self.findings.iter().find_map(|filed| match filed.finding {
-            Finding::ForetoldUpTo { time_s, .. } | Finding::SlidesOn { time_s, .. } => Some(time_s),
-            Finding::IllConditioned { holds_to_s: Some(time_s), .. } => Some(time_s),
-            Finding::DeckJudged { judged_s, end: DeckEnd::Foretold | DeckEnd::Slides, .. } => {
-                Some(judged_s)
-            }
-            _ => None,
-        })
+        predictable_to(&self.findings)
     }
 
     /// What of the answer is missing, because a history ended before its record.
@@ -375,6 +374,18 @@ impl Run {
             })
             .map(|(_, finding)| finding)
     }
+}
+
+/// Up to when a motion can be foretold (s), if that is not all of it.
+pub(crate) fn predictable_to(findings: &[FiledFinding]) -> Option<f64> {
+    findings.iter().find_map(|filed| match filed.finding {
+        Finding::ForetoldUpTo { time_s, .. } | Finding::SlidesOn { time_s, .. } => Some(time_s),
+        Finding::IllConditioned { holds_to_s: Some(time_s), .. } => Some(time_s),
+        Finding::DeckJudged { judged_s, end: DeckEnd::Foretold | DeckEnd::Slides, .. } => {
+            Some(judged_s)
+        }
+        _ => None,
+    })
 }
 
 /// With a capital letter and a full stop.

@@ -2,7 +2,7 @@
 
 use super::{FiledParameters, Run, Section, Table, peak_table, sentence};
 use files::message::{percent, quantity, significant};
-use springs::results::{DesignForce, ForceName, OtherForces};
+use springs::results::{DesignForce, DesignForces, ForceName, OtherForces};
 
 /// The whole of it.
 pub fn markdown(run: &Run) -> String {
@@ -104,6 +104,18 @@ fn section(part: &Section) -> String {
     out
 }
 
+/// What bounds the moment of a column on a footing, for the check that an engineer makes first.
+fn on_one_corner(forces: &DesignForces) -> Option<String> {
+    (forces.column_base_moment_nm.is_some() && forces.sole_vertical_n.is_some()).then(|| {
+        "On one corner the ground bears a moment of N b about the middle of a footing, 2b wide, N \
+            the vertical force under it at that time. N has the footing's weight in it and, in a \
+            landing, more than all of the weight; the footing's inertia and the shear times its \
+            height come between. So the moment at a column's base can be above W b, and above the \
+            column's own axial force times b."
+            .into()
+    })
+}
+
 fn forces(run: &Run) -> Option<Section> {
     let (forces, words) = (run.design_forces.as_ref()?, run.force_words());
     let cell = |x: Option<f64>, name: ForceName| x.map_or("-".into(), |x| quantity(x, name.unit()));
@@ -148,6 +160,7 @@ fn forces(run: &Run) -> Option<Section> {
             if together(run).is_some() { "; what acts together is below" } else { "" }
         )],
         table: Some(Table::new(head).with(forces.all().map(row))),
+        notes: on_one_corner(forces).into_iter().collect(),
         ..Section::default()
     })
 }
@@ -199,14 +212,17 @@ pub fn height(force: &DesignForce) -> String {
     above.map_or(String::new(), |above| format!(", {} m above the base", significant(above, 3)))
 }
 
-/// What acts together with the largest forces of a column: pairs for an interaction diagram.
+/// What acts together with the largest forces of a column or a leg: pairs for an interaction
+/// diagram.
 fn together(run: &Run) -> Option<Section> {
     let words = run.force_words();
     let elastic = matches!(run.parameters, FiledParameters::Elastic(_));
+    let forces = run.design_forces?;
+    let legs = forces.apex_moment_nm.is_some();
     let row = |(name, force): (ForceName, DesignForce)| {
         let with = force.together?;
-        let cells =
-            [(with.axial_n, "N"), (with.column_base_moment_nm, "N m"), (with.column_shear_n, "N")];
+        let moment = with.apex_moment_nm.unwrap_or(with.column_base_moment_nm);
+        let cells = [(with.axial_n, "N"), (moment, "N m"), (with.column_shear_n, "N")];
         let withheld = if force.holds { "" } else { " (withheld)" };
         let at = format!("{} s", significant(force.time_s, 4));
         Some(
@@ -217,28 +233,27 @@ fn together(run: &Run) -> Option<Section> {
             .concat(),
         )
     };
-    let rows: Vec<_> = run.design_forces?.all().filter_map(row).collect();
-    let [moment, shear] = [ForceName::ColumnBaseMoment, ForceName::ColumnShear].map(words);
-    let head = ["where", "at", "axial force", moment, shear];
+    let rows: Vec<_> = forces.all().filter_map(row).collect();
+    let moment = if legs { ForceName::ApexMoment } else { ForceName::ColumnBaseMoment };
+    let head = ["where", "at", "axial force", words(moment), words(ForceName::ColumnShear)];
+    let place = match (legs, elastic) {
+        (true, _) => "in a leg",
+        (false, true) => "at the column's base",
+        (false, false) => "at the base",
+    };
+    let of = match elastic {
+        true => {
+            "At the time of each largest force, below the same frequency; means over parts of the \
+                record's time step, so at most the largest."
+        }
+        false => "At the time of each largest force, of Housner's body.",
+    };
+    let higher =
+        if elastic && !legs { " The largest shear may be higher up the column." } else { "" };
     (!rows.is_empty()).then(|| Section {
         id: "together",
-        title: if elastic {
-            "What acts together at the column's base"
-        } else {
-            "What acts together at the base"
-        }
-        .into(),
-        text: vec![
-            if elastic {
-                "At the time of each largest force, below the same frequency; means over parts of \
-                    the record's time step, so at most the largest. The largest shear may be \
-                    higher up the column. Axial force is positive in tension."
-            } else {
-                "At the time of each largest force, of Housner's body. Axial force is positive in \
-                    tension."
-            }
-            .into(),
-        ],
+        title: format!("What acts together {place}"),
+        text: vec![format!("{of}{higher} Axial force is positive in tension.")],
         table: Some(Table::new(head).with(rows)),
         ..Section::default()
     })

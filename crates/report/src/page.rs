@@ -170,7 +170,11 @@ fn programs(run: &Run) -> (&'static str, &'static str, String) {
                             friction out."
                     }
                 };
-                format!("<p>{}: {}.{deck}</p>\n", escape(&program.program), escape(&program.line()))
+                format!(
+                    "<p>{}: {}.{deck}</p>\n",
+                    escape(&program.program),
+                    escape(&program.line(None, true))
+                )
             }
         };
         format!(

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Section, Table, Unit, elastic::springs::corner_units, unit_of};
+use super::{Section, Table, Unit, elastic::springs::corner_units, predictable_to, unit_of};
 use files::message::{percent, quantity, significant};
 use springs::{
     parameters::{
@@ -10,7 +10,7 @@ use springs::{
         elastic::ElasticParameters,
         program::{FootUnits, ProgramErrors, ProgramRow, ProgramTest, not_to_be_used},
     },
-    results::Finding,
+    results::{FiledFinding, Finding, PeakPair},
     tuning::fixed_steps::THROUGH,
 };
 
@@ -80,20 +80,22 @@ impl ProgramReport {
                 format!("inertia {value}"),
             )
         });
-        Some(Self::new(row, units.into(), inertia, "top"))
+        let late = late(parameters.peaks, &parameters.findings);
+        Some(Self::new(row, units.into(), inertia, ("top", late)))
     }
 
     /// Of an elastic structure's springs.
     pub(crate) fn of_elastic(parameters: &ElasticParameters) -> Option<Self> {
         let row = parameters.program.as_ref()?;
-        Some(Self::new(row, corner_units(&row.units.springs), None, "peaks"))
+        let late = late(parameters.peaks, &parameters.findings);
+        Some(Self::new(row, corner_units(&row.units.springs), None, ("peaks", late)))
     }
 
     fn new<U>(
         row: &ProgramRow<U>,
         units: Vec<Unit>,
         inertia: Option<ProgramSetting>,
-        peaks: &str,
+        peaks: (&str, bool),
     ) -> Self {
         let tolerance = match row.converged {
             ProgramTest::UnbalanceOverWeight(x) => {
@@ -155,14 +157,19 @@ impl ProgramReport {
         if self.program.chars().count() <= NAME { &self.program } else { "even step" }
     }
 
-    /// For a screen: no settings of springs that are not to be used.
-    pub(crate) fn line(&self) -> String {
-        if !self.usable {
-            return format!("{} steps: {}", self.steps, self.errors);
+    /// For a screen: what goes wrong and the errors, the file that has the settings if there is
+    /// one, and the settings if they are `told`; none of springs that are not to be used.
+    pub(crate) fn line(&self, settings_in: Option<&str>, told: bool) -> String {
+        let mut line = format!("{} steps: {}", self.steps, self.errors);
+        if self.usable {
+            line += &settings_in.map_or(String::new(), |file| format!("; to type: {file}"));
+            let all = self.set_to.iter().map(|s| s.short.as_str());
+            let set_to: Vec<&str> = all.filter(|short| !short.is_empty()).collect();
+            if told {
+                line += &format!("; {}", set_to.join(", "));
+            }
         }
-        let set_to: Vec<String> =
-            self.set_to.iter().map(|s| s.short.clone()).filter(|short| !short.is_empty()).collect();
-        format!("{} steps: {}; {}", self.steps, set_to.join(", "), self.errors)
+        line
     }
 
     /// For a report.
@@ -218,32 +225,56 @@ pub(crate) fn lost<U>(row: &ProgramRow<U>, asked: bool) -> Option<Finding> {
     many.then_some(Finding::ProgramLoses { program, step_s, lost, histories, csi, asked })
 }
 
-/// Largest displacement first: median and what 90 % are below.
-fn errors<U>(row: &ProgramRow<U>, peaks: &str) -> String {
-    let Some(errors) = row.measured() else {
+/// Whether the largest displacement comes after what can be predicted.
+fn late(peaks: Option<PeakPair>, findings: &[FiledFinding]) -> bool {
+    let largest = peaks.and_then(|pair| pair.reference.times).map(|times| times.top_displacement_s);
+    predictable_to(findings).zip(largest).is_some_and(|(until, largest)| largest > until)
+}
+
+/// What goes wrong, if something does; then the errors, largest displacement first: median and what
+/// 90 % are below.
+fn errors<U>(row: &ProgramRow<U>, (peaks, late): (&str, bool)) -> String {
+    let nothing = String::new;
+    let suites = [
+        ("motions", row.expected.synthetic),
+        ("earthquake-like motions", row.expected.earthquakes),
+    ];
+    let suites = suites.into_iter().filter_map(|(name, errors)| Some((name, errors?)));
+    let suites: Vec<(&str, ProgramErrors)> = suites.collect();
+    let median = |errors: &ProgramErrors| errors.peak[0].unwrap_or(f64::INFINITY);
+    // of the suite where they err most
+    let worst = suites
+        .iter()
+        .copied()
+        .reduce(|one, other| if median(&other.1) > median(&one.1) { other } else { one });
+    let Some((name, errors)) = worst else {
         return "errors not measured".into();
     };
-    let cell = |x: Option<f64>| x.map_or("lost".into(), percent);
-    let [median, ninety] = errors.peak;
-    let [nrmse, _] = errors.history;
-    let history = nrmse.map_or(String::new(), |x| format!(", NRMSE {}", significant(x, 2)));
-    let n = errors.histories;
     if let Some(lost) = row.mostly_lost() {
         return not_to_be_used(lost);
     }
-    let [fails, on] = match errors.lost {
-        0 => [String::new(), format!("; on {n} motions")],
-        lost => [format!("fails on {lost} of {n} motions; "), String::new()],
+    let cell = |x: Option<f64>| x.map_or("lost".into(), percent);
+    let [median, ninety] = errors.peak.map(cell);
+    let history = errors.history[0];
+    let history = history.map_or(String::new(), |x| format!(", NRMSE {}", significant(x, 2)));
+    let [lost, all] =
+        suites.iter().fold([0; 2], |[lost, all], (_, e)| [lost + e.lost, all + e.histories]);
+    let fails = match lost {
+        0 => nothing(),
+        lost => format!("fails on {lost} of {all} motions; "),
     };
-    let ninety = ninety.map_or(String::new(), |error| format!(", {} (90 %)", percent(error)));
-    let here = row.on_record.and_then(|on| {
-        let ends = on
-            .gives_up_s
-            .map(|s| format!("gives up at {} s, try another --step", significant(s, 3)));
-        ends.or(on.top.map(|top| format!("top {}", signed(top))))
+    let [ends, top] = row.on_record.map_or([None; 2], |on| [on.gives_up_s, on.top]);
+    let ends = ends.map_or(nothing(), |s| {
+        format!("this record: gives up at {} s, try another --step; ", significant(s, 3))
     });
-    let here = here.map_or(String::new(), |what| format!("this record: {what}; "));
-    format!("{here}{fails}{peaks} within {} (median){ninety}{history}{on}", cell(median))
+    let top = top.filter(|_| ends.is_empty());
+    let mark = if late { " (not predictable)" } else { "" };
+    let here = top.map_or(nothing(), |top| format!("this record: top {}{mark}; ", signed(top)));
+    // how many there are is said with those that fail
+    let told = lost > 0 && suites.len() == 1;
+    let on = if told { nothing() } else { format!(" on {} {name}", errors.histories) };
+    let within = format!("{peaks} within {median} (median), {ninety} (90 %){on}{history}");
+    format!("{ends}{fails}{here}{within}")
 }
 
 /// A difference with its sign.

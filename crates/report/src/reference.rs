@@ -3,7 +3,7 @@
 
 use dynamics::fem::{self, HistoryOutcome};
 use rocking::{
-    conditioning::{Conditioning, holds_to},
+    conditioning::Conditioning,
     housner::{self, Rocking},
     motion::TimedPeak,
     regime::{self, Regime},
@@ -27,8 +27,8 @@ pub struct HousnerReport {
     pub lifted: bool,
     /// When its pivot left the ground, which ends his solution (s).
     pub left_ground_s: Option<f64>,
-    /// Of a history that is ill-conditioned: up to when its width hardly matters (s), if that is
-    /// not all of it.
+    /// Of a history that is ill-conditioned: up to when no change of 0.1 % moves it by a twentieth
+    /// of its peak (s), if that is not all of it.
     pub holds_to_s: Option<f64>,
 }
 
@@ -51,9 +51,7 @@ impl HousnerReport {
         let lifted = rocking.outcome != housner::RockingOutcome::NeverMoved;
         let doubtful = lifted && !conditioning.well_conditioned();
         Self {
-            holds_to_s: doubtful
-                .then(|| holds_to(body, record.dt, &record.accel, &options))
-                .flatten(),
+            holds_to_s: conditioning.changes.holds_to_s.filter(|_| doubtful),
             conditioning,
             regime: regime::check(
                 body,

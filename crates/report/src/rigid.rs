@@ -8,7 +8,7 @@ pub mod tables;
 
 use super::{
     AccuracyReport, Assumed, FiledParameters, ProgramReport, Run, Section, Taken, changes, doubts,
-    filed, judged,
+    filed, judged, predictable_to,
     reference::{self, HousnerReport},
     stiffness_tradeoff::TradeoffPoint,
     unit_of,
@@ -18,7 +18,7 @@ use dynamics::spring::{Design, Springs};
 use files::message::{percent, quantity, significant};
 use fixed_steps::FixedStepHistory;
 use limits::springs_findings;
-use peaks::peaks;
+use peaks::{peaks, peaks_to};
 use rocking::{
     members::Members,
     structure::{Kind, Structure},
@@ -99,6 +99,10 @@ impl RigidRun {
             parameters.design_forces.map(|forces| forces.foretold_to(report.holds_to_s));
         let mut run = Self { case, job, front, both, report, of_steps, parameters };
         run.parameters.findings = filed(run.findings());
+        if let Some(until) = predictable_to(&run.parameters.findings) {
+            let part = peaks_to(Some(until), kind, &run.job.body, run.job.record.dt, &run.both);
+            run.parameters.peaks = run.parameters.peaks.map(|peaks| peaks.foretold(until, &part));
+        }
         run
     }
 

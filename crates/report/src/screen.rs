@@ -242,9 +242,10 @@ fn next(run: &Run, written: &Written, crowding: Crowding, lines: &mut Vec<String
     }
     match &run.program {
         Some(program) => {
-            let typed = both && written.decks && run.sap2000 && program.csi;
-            let sheet = if typed { format!("; to type: decks/{SHEET}") } else { String::new() };
-            let line = program.line() + &sheet;
+            let sheet = format!("decks/{SHEET}");
+            let typed = written.decks && run.sap2000 && program.csi;
+            // where there is little room the sheet alone has the settings
+            let line = program.line(typed.then_some(&*sheet), both || !typed);
             at_most(crowding.program, lines, &format!("{:10}", program.short()), &line);
             if written.decks && program.deck_of_even_steps {
                 let deck = format!("python3 {}", written.file(&format!("decks/{EVEN_DECK}")));

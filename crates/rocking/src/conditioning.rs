@@ -61,6 +61,9 @@ pub struct Changes {
     pub restitution: [f64; 2],
     /// Whether a changed body overturns and the unchanged one does not, or the other way round.
     pub overturning: bool,
+    /// Up to when no change of 0.1 % moves a history by a twentieth of its largest displacement
+    /// (s); none: to its end.
+    pub holds_to_s: Option<f64>,
 }
 
 impl Changes {
@@ -126,27 +129,8 @@ fn moved(changed: &[f64], u: &[f64]) -> f64 {
     Some(nrmse(changed, u)).filter(|x| x.is_finite()).unwrap_or(1.0)
 }
 
-/// Share of the largest displacement by which a history that can be foretold is moved at most.
-pub const MOVED_BY_PEAK: f64 = 0.05;
-
-/// Up to when 0.1 % more or less width moves a history by less than a twentieth of its largest
-/// displacement (s); none: to its end. Record and options as in [`solve`].
-pub fn holds_to(
-    body: &Body<f64>,
-    dt: f64,
-    accel: &[f64],
-    options: &RockingOptions<f64>,
-) -> Option<f64> {
-    let bodies = [0.0, CHANGES[0], -CHANGES[0]]
-        .map(|change| Body { half_width: body.half_width * (1.0 + change), ..*body });
-    let [u, more, less] = bodies.map(|body| solve(&body, dt, accel, options).motion(&body).u);
-    let most = MOVED_BY_PEAK * u.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
-    let moved = |i: &usize| {
-        let by = |other: &[f64]| other.get(*i).is_none_or(|x| (x - u[*i]).abs() > most);
-        by(&more) || by(&less)
-    };
-    (0..u.len()).find(moved).map(|i| i.saturating_sub(1) as f64 * dt)
-}
+/// Share of the largest displacement by which 0.1 % moves a history that holds.
+const MOVED_BY_PEAK: f64 = 0.05;
 
 /// Twelve histories beside the unchanged one, all in lock-step.
 pub fn changes(body: &Body<f64>, dt: f64, accel: &[f64], options: &RockingOptions<f64>) -> Changes {
@@ -165,16 +149,23 @@ pub fn changes(body: &Body<f64>, dt: f64, accel: &[f64], options: &RockingOption
         ]);
     }
     let histories = solve_lanes(&bodies, dt, accel, &all);
-    let displacements = |i: usize| histories[i].motion(&bodies[i]).u;
-    let u = displacements(0);
+    let displacements: Vec<Vec<f64>> =
+        bodies.iter().zip(&histories).map(|(body, history)| history.motion(body).u).collect();
+    let u = &displacements[0];
     let moved_by = |i: usize| {
         let until = [&histories[0], &histories[i]]
             .into_iter()
             .filter_map(Rocking::overturned)
             .reduce(f64::min);
         let samples = samples_until(until, dt).min(u.len());
-        moved(&displacements(i), &u[..samples])
+        moved(&displacements[i], &u[..samples])
     };
+    let most = MOVED_BY_PEAK * u.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
+    let parts = |i: &usize| {
+        let apart = |other: &Vec<f64>| other.get(*i).is_none_or(|x| (x - u[*i]).abs() > most);
+        displacements[1..=6].iter().any(apart)
+    };
+    let first = (0..u.len()).find(parts);
     let overturns =
         |rocking: &Rocking<f64>| matches!(rocking.outcome, RockingOutcome::Overturned { .. });
     // history 1 + 6 k + 3 j + what: size k, sign j
@@ -186,6 +177,7 @@ pub fn changes(body: &Body<f64>, dt: f64, accel: &[f64], options: &RockingOption
         scale: largest(1),
         restitution: largest(2),
         overturning: histories.iter().any(|changed| overturns(changed) != overturns(&histories[0])),
+        holds_to_s: first.map(|i| i.saturating_sub(1) as f64 * dt),
     }
 }
 
@@ -300,6 +292,7 @@ mod tests {
         // what others measured: 0.2 to 0.3 %
         assert!((0.0015..0.0035).contains(&found.changes.width[0]), "{found:?}");
         assert!(found.well_conditioned() && !found.changes.overturning);
+        assert_eq!(found.changes.holds_to_s, None);
     }
 
     /// A block of restitution 0.6 rocks freely until it rests; then the ground pushes it for 3 s
@@ -323,6 +316,9 @@ mod tests {
         assert!(found.sensitivity.worst() < ILL_CONDITIONED, "{found:?}");
         assert!(found.changes.width[0] > 0.1 && found.changes.scale[0] > 0.1, "{found:?}");
         assert!(!found.well_conditioned());
+        // what the push lifts, it lifts after 40 s
+        let holds_to = found.changes.holds_to_s.unwrap();
+        assert!((40.0..46.0).contains(&holds_to), "{holds_to}");
     }
 
     /// Among motions made for a slender frame some look well conditioned to the derivative alone.

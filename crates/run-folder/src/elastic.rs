@@ -8,7 +8,7 @@ use crate::{
     models::{self, SAP2000},
     pictures as rigid_pictures,
     rigid::{Output, write_report},
-    tables::csv_row,
+    tables::{Instants, csv_row},
     texts::RunTexts,
 };
 use decks::{ACCURACY, DeckFormat, ElasticDeck, ExportError, corner_history};
@@ -48,7 +48,6 @@ use stepped::CornerHistory;
 pub use stepped::stepped_deck;
 
 use bearing::ForceQuantities;
-use demands::Instants;
 
 /// Drifts below this share of the structure's size are rounding: there is nothing to compare with
 /// them.
@@ -216,6 +215,7 @@ impl ElasticRun {
         run.parameters.design_forces =
             Some(design_forces(&run.assembled.structure, &run.answer.design).foretold_to(foretold));
         run.parameters.findings = filed(run.parts().findings(&run.parameters));
+        run.parameters.peaks = Some(run.parts().foretold_peaks(&run.parameters.findings));
         run
     }
 

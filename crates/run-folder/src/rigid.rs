@@ -22,7 +22,7 @@ use crate::{
     models::{self, SAP2000},
     pictures::{self, Pictures},
     place::write_file,
-    tables::{history_csv, members_csv},
+    tables::{Instants, history_csv, members_csv},
     texts::RunTexts,
 };
 
@@ -107,13 +107,16 @@ pub fn texts(rigid: &RigidRun, out: &Path) -> Result<RunTexts, FolderError> {
 fn tables(rigid: &RigidRun, parameters: &Parameters, run: &Run) -> RunTexts {
     let RigidRun { job, both, .. } = rigid;
     let dt = job.record.dt;
-    let demands = both.with.as_ref().map_or(&both.demands, |with| &with.demands);
+    let of = both.with.as_ref();
+    let of = of.map_or((&both.fem, &both.demands), |with| (&with.history, &with.demands));
+    let members = |instants| members_csv((rigid.case.structure.kind, &job.body), dt, of, instants);
     let files = vec![
         ("parameters.json", parameters.to_json()),
         ("parameters.md", markdown(run)),
         ("summary.csv", summary(run).csv()),
         ("history.csv", history_csv(dt, both)),
-        ("members.csv", members_csv(dt, demands)),
+        ("members.csv", members(Instants::Samples)),
+        ("members_envelopes.csv", members(Instants::Envelopes)),
     ];
     RunTexts {
         files: files.into_iter().map(|(name, text)| (name.to_string(), text)).collect(),

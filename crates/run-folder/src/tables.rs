@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use dynamics::fem::{Demands, QUANTITIES};
+use dynamics::fem::{Demands, History, QUANTITIES};
+use rocking::structure::{Body, Kind};
 use springs::answers::ModelComparison;
 
 /// `history.csv`: the motions at the record's samples, 12 significant digits; with members three
@@ -58,13 +59,55 @@ fn digits_12(x: f64) -> String {
     }
 }
 
-/// `members.csv`: forces at the record's samples, each the largest since the sample before.
-pub fn members_csv(dt: f64, demands: &Demands) -> String {
-    let mut out = format!("t,{}\n", QUANTITIES.join(","));
-    for (i, row) in demands.rows.iter().enumerate() {
-        let mut all = [0.0; QUANTITIES.len() + 1];
-        all[0] = i as f64 * dt;
-        all[1..].copy_from_slice(row);
+/// What a file of forces holds of every instant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Instants {
+    /// All of them at the same instants: the record's samples.
+    Samples,
+    /// Of each value, the largest magnitude since the sample before.
+    Envelopes,
+}
+
+/// Forces of a block: about the middle of its base.
+const OF_BLOCK: [&str; 6] = [
+    "base_shear_n",
+    "base_axial_n",
+    "base_moment_nm",
+    "tendon_n",
+    "damper_left_n",
+    "damper_right_n",
+];
+
+/// Where in a row of `QUANTITIES` those of members begin.
+const MEMBERS: usize = 7;
+
+/// `members.csv` or `members_envelopes.csv` of a rigid body: of an A-frame's legs, of a block's
+/// base; axial forces are positive in tension. Samples are `dt` (s) apart.
+pub fn members_csv(
+    (kind, body): (Kind, &Body<f64>),
+    dt: f64,
+    (history, demands): (&History, &Demands),
+    instants: Instants,
+) -> String {
+    let at_samples = instants == Instants::Samples;
+    let rows = if at_samples { &demands.at } else { &demands.rows };
+    let names: &[&str] = if kind == Kind::Block { &OF_BLOCK } else { &QUANTITIES };
+    let mut out = format!("t,{}\n", names.join(","));
+    for (i, row) in rows.iter().enumerate() {
+        let mut all = vec![i as f64 * dt, row[0]];
+        if kind == Kind::Block {
+            let [sum, difference] = match at_samples {
+                true => {
+                    let [[_, left], [_, right]] = demands.feet[i];
+                    [left + right, left - right]
+                }
+                false => [0, 1].map(|k| history.forces.both[k][i]),
+            };
+            all.extend([-sum, difference * body.half_width]);
+            all.extend(&row[MEMBERS..]);
+        } else {
+            all.extend(&row[1..]);
+        }
         csv_row(&mut out, &all);
     }
     out
@@ -73,6 +116,10 @@ pub fn members_csv(dt: f64, demands: &Demands) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use dynamics::spring::{Design, Springs};
+    use rocking::{members::Members, scalar::GRAVITY, structure::Structure};
+    use springs::answers::both;
+    use strong_motion::Record;
 
     #[test]
     fn numbers_have_twelve_significant_digits() {
@@ -80,5 +127,37 @@ mod tests {
         assert_eq!(digits_12(-12.5), "-12.5000000000");
         assert_eq!(digits_12(1.0 / 3.0e6), "3.33333333333e-7");
         assert_eq!(digits_12(0.0), "0");
+    }
+
+    /// A block on its left foot: shear, compression and the moment about the middle of its base at
+    /// the sample; in the other file the largest since the sample before.
+    #[test]
+    fn a_block_has_forces_of_its_base_at_one_instant() {
+        let mut demands = Demands::default();
+        demands.at = vec![[3.0; QUANTITIES.len()]];
+        demands.rows = vec![[-7.0; QUANTITIES.len()]];
+        demands.feet = vec![[[3.0, 50.0], [0.0, 10.0]]];
+        let record = Record::new("at rest", 0.01, vec![0.0; 2]).unwrap();
+        let block = Structure::block(2.0, 0.5, 1e3).unwrap();
+        let body = block.body::<f64>();
+        let design = Design::from_kc(0.3, 0.1, 0.75, 160.0);
+        let springs = Springs { vertical: design, horizontal: design }.chains(1e3);
+        let both = both(&body, body.restitution(), &springs, &Members::default(), &record);
+        let of = (Kind::Block, &body);
+        let text = members_csv(of, 0.01, (&both.fem, &demands), Instants::Samples);
+        let row = |text: &str| -> Vec<f64> {
+            text.lines().nth(1).unwrap().split(',').map(|x| x.parse().unwrap()).collect()
+        };
+        assert!(text.starts_with("t,base_shear_n,base_axial_n,base_moment_nm,tendon_n"));
+        assert_eq!(row(&text), [0.0, 3.0, -60.0, 10.0, 3.0, 3.0, 3.0]);
+        let worst = members_csv(of, 0.01, (&both.fem, &demands), Instants::Envelopes);
+        let worst = row(&worst);
+        assert_eq!((worst[1], worst[4]), (-7.0, -7.0));
+        // at rest it weighs what it weighs
+        assert!((worst[2] / (-1e3 * GRAVITY) - 1.0).abs() < 1e-9, "{worst:?}");
+        let legs =
+            members_csv((Kind::AFrame, &body), 0.01, (&both.fem, &demands), Instants::Samples);
+        assert!(legs.starts_with("t,base_shear_n,axial_left_n,shear_left_n"));
+        assert_eq!(row(&legs), [vec![0.0], vec![3.0; QUANTITIES.len()]].concat());
     }
 }

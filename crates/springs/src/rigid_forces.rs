@@ -68,16 +68,12 @@ pub fn design_forces(
             let kept = all_between(body, dt, &both.fem, samples.min(housner.len()));
             let springs = on_springs(kind, body, dt, (&both.fem, &both.demands), &kept);
             let force = |k: usize| {
-                let series: Vec<f64> = housner.iter().map(|row| row[k]).collect();
+                let series: Vec<f64> = housner.iter().map(|row| row.largest(k)).collect();
                 let all = TimedPeak::of(dt, &series).unwrap_or_default();
                 let same = kept.iter().map(|&i| series[i].abs()).fold(0.0, f64::max);
                 let change = relative(same, springs[k].value);
                 let row = housner.get((all.time / dt).round() as usize);
-                let together = row.filter(|_| kind == Kind::Block).map(|row| ForcesTogether {
-                    column_shear_n: row[1],
-                    axial_n: row[3],
-                    column_base_moment_nm: row[2],
-                });
+                let together = row.map(|row| row.together(kind, k));
                 DesignForce {
                     together,
                     rigid: Some(all.value),
@@ -88,9 +84,11 @@ pub fn design_forces(
         }
     };
     let half = 0.5 * body.mass * GRAVITY;
-    let at_rest = rows_of(kind, body, 0.0, [[0.0, half]; 2]);
+    let at_rest = GroundRow::new(kind, body, 0.0, [[0.0, half]; 2]);
     if kind == Kind::AFrame {
-        rows.iter_mut().zip(at_rest).for_each(|(force, rest)| force.at_rest = Some(rest));
+        for (force, k) in rows.iter_mut().zip(1..) {
+            force.at_rest = Some(at_rest.largest(k));
+        }
     }
     let [shear, moment, axial] = rows.map(Some);
     let all = DesignForces { column_shear_n: shear, axial_n: axial, ..DesignForces::default() };
@@ -112,14 +110,14 @@ fn all_between(body: &Body<f64>, dt: f64, history: &History, samples: usize) -> 
     between_landings(body, dt, &history.landings, samples.min(history.motion.len())).collect()
 }
 
-/// Shear at the sole, and the rows, sample by sample, of Housner's body.
+/// Forces, sample by sample, of Housner's body.
 fn of_housner(
     kind: Kind,
     body: &Body<f64>,
     record: &Record,
     rocking: &Rocking<f64>,
     samples: usize,
-) -> Vec<[f64; 4]> {
+) -> Vec<GroundRow> {
     let forces = ground_forces(body, (&record.accel, record.up()), rocking);
     let row = |(i, (f, n)): (usize, (f64, f64))| {
         let (theta, rate) = (rocking.theta[i], rocking.rate[i]);
@@ -137,29 +135,61 @@ fn of_housner(
         } else {
             [[f, n], [0.0; 2]]
         };
-        let [shear, moment, axial] = rows_of(kind, body, theta, feet);
-        [f, shear, moment, axial]
+        GroundRow::new(kind, body, theta, feet)
     };
     forces.into_iter().enumerate().take(samples).map(row).collect()
 }
 
-/// Column shear, moment, axial force for forces (H, N) of the left and the right foot of a body
-/// that leans by theta.
-fn rows_of(kind: Kind, body: &Body<f64>, theta: f64, feet: [[f64; 2]; 2]) -> ForceRow {
-    let [[left_h, left_n], [right_h, right_n]] = feet;
-    if kind == Kind::Block {
-        return [left_h + right_h, (left_n - right_n) * body.half_width, -(left_n + right_n)];
+/// Forces at one instant.
+struct GroundRow {
+    /// On the body, horizontally (N).
+    sole_shear: f64,
+    /// Of the left leg and of the right one; of a block the same twice.
+    legs: [ForceRow; 2],
+}
+
+impl GroundRow {
+    /// For forces (H, N) of the left and the right foot of a body that leans by theta.
+    fn new(kind: Kind, body: &Body<f64>, theta: f64, feet: [[f64; 2]; 2]) -> Self {
+        let [[left_h, left_n], [right_h, right_n]] = feet;
+        let sole_shear = left_h + right_h;
+        if kind == Kind::Block {
+            let moment = (left_n - right_n) * body.half_width;
+            return Self { sole_shear, legs: [[sole_shear, moment, -(left_n + right_n)]; 2] };
+        }
+        let (sin, cos) = theta.sin_cos();
+        let legs = [(-1.0, feet[0]), (1.0, feet[1])].map(|(side, [h, n])| {
+            // from the mass to the foot, turned clockwise with the body
+            let (x, z) = (side * body.half_width, -body.height);
+            let (dx, dz) = (x * cos + z * sin, z * cos - x * sin);
+            let length = body.radius();
+            let moment = h * dz - n * dx;
+            [moment / length, moment, (h * dx + n * dz) / length]
+        });
+        Self { sole_shear, legs }
     }
-    let (sin, cos) = theta.sin_cos();
-    let legs = [(-1.0, feet[0]), (1.0, feet[1])].map(|(side, [h, n])| {
-        // from the mass to the foot, turned clockwise with the body
-        let (x, z) = (side * body.half_width, -body.height);
-        let (dx, dz) = (x * cos + z * sin, z * cos - x * sin);
-        let length = body.radius();
-        let moment = h * dz - n * dx;
-        [moment / length, moment, (h * dx + n * dz) / length]
-    });
-    [0, 1, 2].map(|k| if legs[0][k].abs() >= legs[1][k].abs() { legs[0][k] } else { legs[1][k] })
+
+    /// The leg where a force of a leg is the larger one: 0 shear, 1 moment, 2 axial force.
+    fn leg(&self, force: usize) -> ForceRow {
+        let [left, right] = self.legs;
+        if left[force].abs() >= right[force].abs() { left } else { right }
+    }
+
+    /// Shear at the sole (0), column shear (1), moment (2), axial force (3).
+    fn largest(&self, k: usize) -> f64 {
+        k.checked_sub(1).map_or(self.sole_shear, |force| self.leg(force)[force])
+    }
+
+    /// What acts together with the same; with the shear at the sole, in the leg that bears the
+    /// larger axial force.
+    fn together(&self, kind: Kind, k: usize) -> ForcesTogether {
+        let [column_shear_n, moment, axial_n] = self.leg(k.checked_sub(1).unwrap_or(2));
+        let (column_base_moment_nm, apex_moment_nm) = match kind {
+            Kind::Block => (moment, None),
+            Kind::AFrame => (0.0, Some(moment)),
+        };
+        ForcesTogether { column_shear_n, axial_n, column_base_moment_nm, apex_moment_nm }
+    }
 }
 
 /// Largest shear at the sole, column shear, moment and axial force of a history on springs, over
@@ -219,6 +249,22 @@ mod tests {
         let apex = all.apex_moment_nm.unwrap();
         assert!((apex.value.unwrap().abs() / (weight * 1.05 / 2.0) - 1.0).abs() < 1e-9, "{apex:?}");
         assert!(all.column_base_moment_nm.is_none());
+        // one leg's: its moment is its shear times its length, and it bears half of the weight and
+        // a part of the push
+        let with = apex.together.unwrap();
+        let length = 9f64.hypot(1.05);
+        assert_eq!(with.apex_moment_nm, apex.value);
+        assert!(
+            (with.column_shear_n * length / apex.value.unwrap() - 1.0).abs() < 1e-9,
+            "{with:?}"
+        );
+        let axial = all.axial_n.unwrap();
+        let with = axial.together.unwrap();
+        let by_hand = 0.5 * weight * 9.0 / length
+            + 60e3 * (9.0 / 1.05) / 2.0 * 9.0 / length
+            + 30e3 * 1.05 / length;
+        assert!((with.axial_n / -by_hand - 1.0).abs() < 1e-6, "{with:?} {by_hand}");
+        assert_eq!(with.column_base_moment_nm, 0.0);
     }
 
     /// A block that stands in a ground motion presses on the ground by its weight, however fast the

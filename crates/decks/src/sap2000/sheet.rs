@@ -249,7 +249,7 @@ fn notes(parts: &SapModel) -> String {
          plain\n     spring that lets go when the foot lifts. With this friction they are the same \
          but in the air.",
     ];
-    if parts.units.len() == 1 {
+    if parts.even.is_some_and(|even| even.adds_inertia) {
         all.push(
             "The inertia R2 at joint 3 belongs to these springs: such steps need some, and a point \
              mass has\n     none.",

@@ -39,6 +39,10 @@ pub(crate) type DemandRow = [f64; QUANTITIES.len()];
 pub struct Demands {
     /// For every sample the values of largest magnitude since the sample before.
     pub rows: Vec<DemandRow>,
+    /// The values at every sample.
+    pub at: Vec<DemandRow>,
+    /// The ground's forces (H, N) on the left and the right foot at every sample (N).
+    pub feet: Vec<[[f64; 2]; 2]>,
     /// Largest magnitude of each, over all steps: in landings, forces of the springs.
     pub peaks: [TimedPeak; QUANTITIES.len()],
     /// Largest magnitude of each between landings: later than 0.1/p after the last touch-down,
@@ -110,6 +114,9 @@ impl Observer<f64> for Demands {
             self.step(view);
         }
         self.rows.push(std::mem::take(&mut self.largest));
+        let feet = view.model.contact(&view.state.q, view.feet);
+        self.feet.push(feet.map(|foot| [foot.horizontal, foot.vertical]));
+        self.at.push(demand(view));
         ControlFlow::Continue(())
     }
 

@@ -2,16 +2,19 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Forces of a column's base at one time, with their signs: what acts together. Axial force is
-/// positive in tension.
+/// Forces of a column's base, or of a leg, at one time, with their signs: what acts together. Axial
+/// force is positive in tension.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ForcesTogether {
     /// Shear across the column (N).
     pub column_shear_n: f64,
     /// Axial force (N).
     pub axial_n: f64,
-    /// Moment at the column's base (N m).
+    /// Moment at the column's base (N m); a leg's hinge has none.
     pub column_base_moment_nm: f64,
+    /// Moment of a leg at the apex (N m).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub apex_moment_nm: Option<f64>,
 }
 
 /// What a force is, and holds, over a part of the record from its start.

@@ -206,7 +206,12 @@ impl Series {
             let [column_shear_n, axial_n, column_base_moment_nm] =
                 [0, 1, 2].map(|k| base[k][at.min(base[k].len() - 1)]);
             PeakOfForce {
-                together: Some(ForcesTogether { column_shear_n, axial_n, column_base_moment_nm }),
+                together: Some(ForcesTogether {
+                    column_shear_n,
+                    axial_n,
+                    column_base_moment_nm,
+                    apex_moment_nm: None,
+                }),
                 ..peak
             }
         };

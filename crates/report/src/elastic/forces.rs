@@ -2,7 +2,7 @@
 
 use ::springs::results::{DesignForce, DesignForces};
 use frames::{
-    design_forces::{ForceKind, StructureForces},
+    design_forces::{ForceKind, ForcesTogether, StructureForces},
     structure::ElasticStructure,
 };
 
@@ -15,6 +15,11 @@ const LEAST_TENSION: f64 = 0.01;
 
 /// A run's forces, as parameters.json has them.
 pub fn design_forces(structure: &ElasticStructure, of: &StructureForces) -> DesignForces {
+    // a leg has no mass and a hinge at its foot
+    let leg = match structure {
+        ElasticStructure::AFrame(frame) => Some(frame.leg_length()),
+        ElasticStructure::Pier(_) | ElasticStructure::Frame(_) => None,
+    };
     let force = |kind: ForceKind| {
         let force = of.get(kind)?;
         Some(DesignForce {
@@ -26,7 +31,10 @@ pub fn design_forces(structure: &ElasticStructure, of: &StructureForces) -> Desi
             fixed: force.fixed.map(|peak| peak.value).filter(|value| *value != 0.0),
             rigid: force.rigid.map(|peak| peak.value),
             at_rest: None,
-            together: force.together,
+            together: force.together.map(|with| ForcesTogether {
+                apex_moment_nm: leg.map(|leg| with.column_shear_n * leg),
+                ..with
+            }),
             above_base_m: force.above_base_m,
             over_s: force.whole_record.map(|_| force.over_s),
             whole_record: force.whole_record,
@@ -44,13 +52,7 @@ pub fn design_forces(structure: &ElasticStructure, of: &StructureForces) -> Desi
     let base_moment = force(ForceKind::ColumnBaseMoment).map_or(0.0, found);
     let column_top_moment_nm = force(ForceKind::ColumnTopMoment)
         .filter(|top| found(*top) > LEAST_TOP_MOMENT * base_moment);
-    // a leg has no mass and a hinge at its foot
-    let apex_moment_nm = match structure {
-        ElasticStructure::AFrame(frame) => {
-            column_shear_n.map(|shear| shear.times(frame.leg_length()))
-        }
-        ElasticStructure::Pier(_) | ElasticStructure::Frame(_) => None,
-    };
+    let apex_moment_nm = column_shear_n.zip(leg).map(|(shear, leg)| shear.times(leg));
     DesignForces {
         below_hz: of.cutoff.as_ref().map(|cutoff| cutoff.cutoff_hz),
         column_shear_n,

@@ -1,9 +1,10 @@
 //! Largest displacements of an elastic structure, as an engineer quotes them.
 
 use super::{ElasticParts, top_height};
-use ::springs::results::{PeakPair, PeakTimes, Peaks};
+use crate::predictable_to;
+use ::springs::results::{FiledFinding, PeakPair, PeakTimes, Peaks};
 use frames::{answer::ElasticHistories, assembled::Sway, frame::Frame};
-use rocking::motion::TimedPeak;
+use rocking::{motion::TimedPeak, overturning::samples_until};
 
 /// Time within which touches are one impact (1/p).
 pub const SAME_IMPACT: f64 = 0.1;
@@ -11,13 +12,26 @@ pub const SAME_IMPACT: f64 = 0.1;
 impl ElasticParts<'_> {
     /// Largest displacements of both models, up to where the shorter history ends.
     pub fn peaks(&self) -> PeakPair {
+        self.peaks_to(None)
+    }
+
+    /// The same, with those up to when the motion can be foretold by what was found.
+    pub fn foretold_peaks(&self, findings: &[FiledFinding]) -> PeakPair {
+        let all = self.peaks();
+        predictable_to(findings)
+            .map_or(all, |until| all.foretold(until, &self.peaks_to(Some(until))))
+    }
+
+    /// Up to `until` (s), if it is given; impacts are those of all of it.
+    fn peaks_to(&self, until: Option<f64>) -> PeakPair {
         let ElasticHistories { reference, fem, sways, .. } = &self.answer.histories;
         let n = reference.history.q.len().min(fem.q.len());
         let n = self
             .answer
             .histories
             .falls(self.assembled.structure.body().alpha())
-            .map_or(n, |falls| falls.min(n));
+            .map_or(n, |falls| falls.min(n))
+            .min(samples_until(until, self.record.dt));
         let frame = &self.assembled.frame;
         let of = |q: &dyn Fn(usize) -> Vec<f64>, k: usize, impacts: usize| {
             let [mut top, mut rocking, mut bending, mut lifted] = [TimedPeak::default(); 4];
@@ -68,6 +82,7 @@ impl ElasticParts<'_> {
             springs: of(&|i| fem.q[i].clone(), 1, impacts(touches, rest)),
             reference_ends_s: None,
             with_members: None,
+            foretold: None,
         }
     }
 }

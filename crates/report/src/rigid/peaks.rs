@@ -12,13 +12,24 @@ use springs::{
 
 /// Largest displacements of both models, up to an overturning; `dt` is that of the record (s).
 pub(super) fn peaks(kind: Kind, body: &Body<f64>, dt: f64, both: &ModelComparison) -> PeakPair {
+    peaks_to(None, kind, body, dt, both)
+}
+
+/// The same up to `until` (s), if it is given; impacts are those of all of it.
+pub(super) fn peaks_to(
+    until: Option<f64>,
+    kind: Kind,
+    body: &Body<f64>,
+    dt: f64,
+    both: &ModelComparison,
+) -> PeakPair {
     let firm = |firm: Option<usize>, all: usize| firm.unwrap_or(all);
     let of = |matched: &Match, theta: &[f64], u: Option<&[f64]>, impacts: usize| {
         let fell = [matched.overturned_housner_s, matched.overturned_fem_s]
             .into_iter()
             .flatten()
             .reduce(f64::min);
-        let n = samples_until(fell, dt).min(theta.len());
+        let n = samples_until(fell, dt).min(samples_until(until, dt)).min(theta.len());
         Peaks::of_rigid((kind, body), dt, &theta[..n], u.map(|u| &u[..n]), impacts)
     };
     let ends = both.rocking.left_ground();
@@ -39,5 +50,36 @@ pub(super) fn peaks(kind: Kind, body: &Body<f64>, dt: f64, both: &ModelCompariso
         reference_ends_s: ends,
         springs: springs(m, &both.fem),
         with_members: both.with.as_ref().map(|with| springs(&with.matched, &with.history)),
+        foretold: None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use dynamics::spring::{Design, Springs};
+    use rocking::{members::Members, structure::Structure};
+    use springs::answers::both;
+    use strong_motion::Record;
+
+    /// The paper's frame is moved most by El Centro after 10 s, and by less in the first 5 s.
+    #[test]
+    fn peaks_up_to_a_time_are_those_of_that_part() {
+        let structure = Structure::paper();
+        let body = structure.body::<f64>();
+        let record = Record::el_centro();
+        let design = Design::from_kc(0.3, 0.1, 0.75, 160.0);
+        let springs = Springs { vertical: design, horizontal: design }.chains(structure.mass_kg);
+        let both = both(&body, body.restitution(), &springs, &Members::default(), &record);
+        let all = peaks(structure.kind, &body, record.dt, &both);
+        let part = peaks_to(Some(5.0), structure.kind, &body, record.dt, &both);
+        let samples = samples_until(Some(5.0), record.dt);
+        let by_hand = both.housner.u[..samples].iter().fold(0.0, |most: f64, u| most.max(u.abs()));
+        assert!((part.reference.top_displacement_m / by_hand - 1.0).abs() < 1e-12);
+        assert!(part.reference.times.unwrap().top_displacement_s <= 5.0);
+        assert!(part.reference.top_displacement_m < all.reference.top_displacement_m);
+        let told = all.foretold(5.0, &part).foretold.unwrap();
+        let tops = [part.reference, part.springs].map(|peaks| peaks.top_displacement_m);
+        assert_eq!((told.until_s, told.top_displacement_m), (5.0, tops));
     }
 }

@@ -1,17 +1,8 @@
 //! `members.csv` of an elastic structure.
 
 use super::ElasticRun;
-use crate::tables::csv_row;
+use crate::tables::{Instants, csv_row};
 use frames::fem::GroundForces;
-
-/// What a file of forces holds of every instant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Instants {
-    /// All of them at the same instants: the record's samples.
-    Samples,
-    /// Of each value, the largest magnitude since the sample before.
-    Envelopes,
-}
 
 /// `members.csv` or `members_envelopes.csv`; axial forces are positive in tension, as in
 /// `BeamForces`.

@@ -121,6 +121,17 @@ impl<'de> Deserialize<'de> for StructureSection {
     }
 }
 
+/// What the key of a whole height begins with.
+const TOTAL: &str = "total_height";
+
+/// That a key of a whole height is not an A-frame's.
+fn for_a_block(key: &str) -> String {
+    format!(
+        "{key} is for a block, whose centre of mass is half way up; give the height of the \
+            A-frame's centre of mass, height_m"
+    )
+}
+
 struct Keys;
 
 /// One of [`KEYS`]; refused as it is read, so that the message tells its line.
@@ -176,7 +187,11 @@ impl<'de> Visitor<'de> for Keys {
                     };
                     let same = quantity.same().iter().find_map(|other| given[*other as usize]);
                     let clash = same.map(|(first, _)| {
-                        format!("{first} and {key} give the same; leave one out")
+                        let total = [first, key].into_iter().find(|key| key.starts_with(TOTAL));
+                        match total.filter(|_| kind == Some(Kind::AFrame)) {
+                            Some(total) => for_a_block(total),
+                            None => format!("{first} and {key} give the same; leave one out"),
+                        }
                     });
                     given[quantity as usize] =
                         Some((key, unit * map.next_value_seed(Number { clash })?));
@@ -185,16 +200,13 @@ impl<'de> Visitor<'de> for Keys {
         }
         let kind = kind.ok_or_else(|| A::Error::missing_field("kind"))?;
         let [height, total, width, mass] = given;
-        let height_m = match (height, total, kind) {
-            (Some((_, height)), _, _) => height,
-            (None, Some((_, total)), Kind::Block) => 0.5 * total,
-            (None, Some((key, _)), Kind::AFrame) => {
-                return Err(A::Error::custom(format!(
-                    "{key} is for a block, whose centre of mass is half way up; give the height of \
-                        the A-frame's centre of mass, height_m"
-                )));
+        let height_m = match (height, total) {
+            (_, Some((key, _))) if kind == Kind::AFrame => {
+                return Err(A::Error::custom(for_a_block(key)));
             }
-            (None, None, _) => return Err(A::Error::missing_field("height_m")),
+            (Some((_, height)), _) => height,
+            (None, Some((_, total))) => 0.5 * total,
+            (None, None) => return Err(A::Error::missing_field("height_m")),
         };
         let need = |given: Option<(&str, f64)>, name| {
             given.map(|(_, x)| x).ok_or_else(|| A::Error::missing_field(name))
@@ -333,6 +345,11 @@ mod tests {
         assert_eq!(twice, "case.toml, line 3: height_ft and height_m give the same; leave one out");
         let frame = said("kind = \"aframe\"\ntotal_height_m = 2.0\nwidth_m = 0.5\nmass_kg = 1.0\n");
         assert!(frame.contains("total_height_m is for a block"), "{frame}");
+        let both = said(
+            "kind = \"aframe\"\nheight_m = 1.0\ntotal_height_m = 2.0\nwidth_m = 0.5\nmass_kg = \
+                1.0\n",
+        );
+        assert!(both.contains("line 4: total_height_m is for a block"), "{both}");
         let near = said("kind = \"block\"\nheight_m = 1.0\nwidht_m = 0.5\nmass_kg = 1.0\n");
         assert_eq!(near, "case.toml, line 4: unknown key \"widht_m\"; did you mean \"width_m\"?");
         let none = said("kind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\n");

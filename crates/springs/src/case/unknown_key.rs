@@ -59,8 +59,39 @@ const OF_KINDS: [(&str, &[&str]); 3] = [
         ],
     ),
 ];
-/// The section of keys that describe a structure.
+/// The section of keys that describe a structure, and a key that it has whatever the kind.
 const SECTION: &str = "structure";
+const HEIGHT: &str = "height_m";
+/// Keys of the other sections that could stand in the wrong one.
+const OF_SECTIONS: [(&str, &[&str]); 2] = [
+    (
+        "record",
+        &[
+            "file",
+            "dt_s",
+            "units",
+            "component",
+            "column",
+            "baseline",
+            "vertical",
+            "scale",
+            "duration_s",
+        ],
+    ),
+    (
+        "tuning",
+        &[
+            "objective",
+            "accuracy",
+            "peaks",
+            "max_omega_hz",
+            "max_settlement_m",
+            "mass_ratios_vertical",
+            "mass_ratios_horizontal",
+            "candidates",
+        ],
+    ),
+];
 /// A key of rigid bodies alone.
 const RIGID: &str = "total_height_m";
 
@@ -85,7 +116,8 @@ impl UnknownKey {
         let masses = known.iter().filter(|known| key.contains("weight") && known.ends_with(MASS));
         let mass = masses.min_by_key(distance);
         let like = known.iter().filter(|known| is_like(&key, known));
-        let like = like.min_by_key(|known| (!is_end(&key, known), distance(known)));
+        let like = like
+            .min_by_key(|known| (!same_words(&key, known), !is_end(&key, known), distance(known)));
         let near = mass.or(like).cloned();
         Some(Self { key, near, known })
     }
@@ -93,14 +125,22 @@ impl UnknownKey {
     /// What to do, after the key.
     pub(super) fn advice(&self) -> String {
         let of_others = kinds_with(&self.key);
-        let rigid = self.known.iter().any(|known| known == RIGID);
-        if rigid && !of_others.is_empty() {
+        let knows = |key: &str| self.known.iter().any(|known| known == key);
+        let in_structure = knows(HEIGHT) || knows(RIGID);
+        if in_structure && !of_others.is_empty() {
             let kinds: Vec<String> = of_others.iter().map(|kind| format!("\"{kind}\"")).collect();
-            return format!("it is a key of kind = {}", kinds.join(" or "));
+            let meant = self.near.as_ref().filter(|_| !knows(RIGID));
+            let meant = meant.map_or(String::new(), |near| format!("; did you mean \"{near}\"?"));
+            return format!("it is a key of kind = {}{meant}", kinds.join(" or "));
         }
-        // keys of [structure] outside of it
-        if self.known.iter().any(|known| known == SECTION) && !kinds_with(&self.key).is_empty() {
+        // keys outside of their section
+        if !of_others.is_empty() {
             return format!("put it under [{SECTION}]");
+        }
+        if let Some((section, _)) =
+            OF_SECTIONS.iter().find(|(_, keys)| keys.contains(&self.key.as_str()))
+        {
+            return format!("put it under [{section}]");
         }
         match &self.near {
             Some(near) if other_unit(&self.key, near) => {
@@ -125,6 +165,15 @@ fn other_unit(key: &str, known: &str) -> bool {
     let unit = |key: &str| key.rsplit_once('_').map(|(_, unit)| unit.to_owned());
     let units = ["t", "kn", "n", "lb", "kip", "mm", "cm", "ft", "in", "mn", "knm2", "mnm2", "g"];
     quantity(key) == quantity(known) && unit(key).is_some_and(|unit| units.contains(&&*unit))
+}
+
+/// Whether the words of one are those of the other, or begin as they do: foot_mass_kg,
+/// footing_mass_kg.
+fn same_words(key: &str, known: &str) -> bool {
+    let words = |text: &str| text.split('_').map(str::to_owned).collect::<Vec<_>>();
+    let (key, known) = (words(key), words(known));
+    let same = |(a, b): (&String, &String)| a.starts_with(b.as_str()) || b.starts_with(a.as_str());
+    key.len() == known.len() && key.iter().zip(&known).all(same)
 }
 
 /// Whether one is an end of the other.
@@ -152,13 +201,14 @@ mod tests {
         for (key, near) in [
             ("widht_m", "width_m"),
             ("height", "height_m"),
-            ("mass_kg", "column_mass_kg"),
             ("weight_kn", "column_mass_kg"),
             ("ei", "ei_nm2"),
             ("column_weight_kn", "column_mass_kg"),
         ] {
             assert_eq!(advice(key), format!("did you mean \"{near}\"?"), "{key}");
         }
+        let mass = "it is a key of kind = \"pier\" or \"aframe\"; did you mean \"column_mass_kg\"?";
+        assert_eq!(advice("mass_kg"), mass);
         let known = "known are height_m, width_m, column_mass_kg, ei_nm2, material";
         assert_eq!(advice("colour"), known);
         // an end before letters that differ
@@ -177,10 +227,25 @@ mod tests {
     }
 
     #[test]
+    fn keys_of_sections_are_those_that_are_read() {
+        fn known<T: serde::de::DeserializeOwned>() -> Vec<String> {
+            let error = toml::from_str::<T>("\"\" = 0").err().unwrap();
+            UnknownKey::of(error.message().lines().next().unwrap()).unwrap().known
+        }
+        let [(_, record), (_, tuning)] = OF_SECTIONS;
+        assert_eq!(known::<super::super::record::RecordSection>(), record);
+        assert_eq!(known::<super::super::Tuning>(), tuning);
+    }
+
+    #[test]
     fn a_key_of_another_kind_is_told_of() {
         let block = "unknown field `column_mass_kg`, expected one of `total_height_m`, `mass_kg`";
         let kinds = "it is a key of kind = \"pier\" or \"frame\"";
         assert_eq!(UnknownKey::of(block).unwrap().advice(), kinds);
+        let pier = "unknown field `foot_mass_kg`, expected one of `height_m`, `mass_kg`, \
+            `footing_mass_kg`, `column_mass_kg`";
+        let advice = "it is a key of kind = \"aframe\"; did you mean \"footing_mass_kg\"?";
+        assert_eq!(UnknownKey::of(pier).unwrap().advice(), advice);
     }
 
     #[test]
@@ -195,6 +260,12 @@ mod tests {
         assert_eq!(UnknownKey::of(outside).unwrap().advice(), "put it under [structure]");
         let kind = "unknown field `kind`, expected one of `structure`, `record`";
         assert_eq!(UnknownKey::of(kind).unwrap().advice(), "put it under [structure]");
+        for known in ["`structure`, `record`", "`height_m`, `width_m`", "`objective`, `accuracy`"] {
+            let scale = format!("unknown field `scale`, expected one of {known}");
+            assert_eq!(UnknownKey::of(&scale).unwrap().advice(), "put it under [record]");
+        }
+        let mass = "unknown field `mass_kg`, expected one of `file`, `scale`";
+        assert_eq!(UnknownKey::of(mass).unwrap().advice(), "put it under [structure]");
     }
 
     #[test]

@@ -102,8 +102,8 @@ pub enum Finding {
     IllConditioned {
         moved_by_width: f64,
         moved_by_scale: f64,
-        /// Up to when 0.1 % of the width moves it by less than a twentieth of its peak (s); none:
-        /// to its end.
+        /// Up to when no change of 0.1 %, of width, scale or restitution, moves it by a twentieth
+        /// of its peak (s); none: to its end.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         holds_to_s: Option<f64>,
         springs_judged: bool,
@@ -187,6 +187,9 @@ pub enum Finding {
         /// Of a rigid body: what Housner's equation gives (N or N m).
         #[serde(default, skip_serializing_if = "Option::is_none")]
         housner: Option<f64>,
+        /// Of a block, which has no column.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        of_block: bool,
     },
     ForcesHeldInPart {
         over_s: f64,

@@ -36,7 +36,8 @@ pub struct DesignForce {
     /// (N or N m).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_rest: Option<f64>,
-    /// What the base of an elastic structure's column bears at that time, below the same frequency.
+    /// What a column's base, a leg or a block's base bears at that time; of an elastic structure
+    /// below the same frequency.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub together: Option<ForcesTogether>,
     /// Where the shear of an elastic structure's column is so large: height above its base, along
@@ -217,6 +218,7 @@ impl DesignForces {
             change: force.change,
             // those of elastic structures have a raw one beside them
             housner: force.rigid.filter(|_| force.raw.is_none()),
+            of_block: self.column_base_moment_nm.is_some() && self.sole_shear_n.is_none(),
         })
     }
 }
@@ -260,7 +262,8 @@ mod tests {
             [Finding::ForceWithheld {
                 force: ForceName::Axial,
                 change: Some(0.051),
-                housner: None
+                housner: None,
+                of_block: false
             }]
         );
         let json = serde_json::to_value(all).unwrap();

@@ -72,6 +72,31 @@ pub struct PeakPair {
     /// On springs, with dampers, tendon or friction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub with_members: Option<Peaks>,
+    /// Of a motion that can be foretold for a part of the record alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub foretold: Option<ForetoldPeaks>,
+}
+
+/// Largest displacements up to when a motion can be foretold: the reference's, and those on
+/// springs.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ForetoldPeaks {
+    /// Up to when (s).
+    pub until_s: f64,
+    /// Of the top (m).
+    pub top_displacement_m: [f64; 2],
+    /// Of a corner (m).
+    pub uplift_m: [f64; 2],
+}
+
+impl PeakPair {
+    /// With those of the same motions up to `until_s` (s).
+    #[must_use]
+    pub fn foretold(self, until_s: f64, part: &Self) -> Self {
+        let both = |of: fn(&Peaks) -> f64| [of(&part.reference), of(&part.springs)];
+        let (top_displacement_m, uplift_m) = (both(|p| p.top_displacement_m), both(|p| p.uplift_m));
+        Self { foretold: Some(ForetoldPeaks { until_s, top_displacement_m, uplift_m }), ..self }
+    }
 }
 
 impl Peaks {

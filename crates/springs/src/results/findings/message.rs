@@ -183,8 +183,8 @@ impl Finding {
                         s(*time)
                     ),
                     None => format!(
-                        "ill-conditioned: 0.1 % more width moves the history by {moved}, but never \
-                            by a twentieth of its peak{judged}"
+                        "ill-conditioned: 0.1 % more width moves the history by {moved}, but no \
+                            change of 0.1 % by a twentieth of its peak{judged}"
                     ),
                 }
             }
@@ -254,11 +254,16 @@ impl Finding {
             Self::LandingsUnfinished { finished, all } => {
                 format!("{} of {all} test landings came to no end on these springs", all - finished)
             }
-            Self::ForceWithheld { force, change: Some(change), housner: Some(housner) } => {
+            Self::ForceWithheld {
+                force,
+                change: Some(change),
+                housner: Some(housner),
+                of_block,
+            } => {
+                let words = if *of_block { force.words_of_block() } else { force.words() };
                 format!(
-                    "{} is withheld: between impacts it differs by {} on the springs from \
+                    "{words} is withheld: between impacts it differs by {} on the springs from \
                         Housner's {}",
-                    force.words(),
                     percent(*change),
                     quantity(housner.abs(), force.unit())
                 )

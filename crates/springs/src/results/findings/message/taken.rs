@@ -7,7 +7,7 @@ use files::message::{percent, quantity, significant};
 /// parameters.json.
 const CHANGES_SAID: usize = 2;
 /// Share below which a quantity is said not to change.
-const LEAST_CHANGE: f64 = 0.02;
+const LEAST_CHANGE: f64 = 0.01;
 
 impl Finding {
     /// What was taken, and what was not.
@@ -29,7 +29,8 @@ impl Finding {
                     |c: &PeakChange| c.unit == "m" || c.quantity == ForceName::Axial.words();
                 let said = all.iter().enumerate();
                 let said = said.filter(|(i, c)| *i < CHANGES_SAID || always(c)).map(|(_, c)| c);
-                let said = said.filter(|c| (ratio(c) - 1.0).abs() > LEAST_CHANGE);
+                let changes_it = |c: &PeakChange| (ratio(c) - 1.0).abs() > LEAST_CHANGE;
+                let said = said.filter(|c| changes_it(c));
                 let name = |c: &PeakChange| c.quantity.split(',').next().map(str::to_owned);
                 let words =
                     |c: &&PeakChange| Some(format!("{} {}", name(c)?, quantity(c.with, &c.unit)));
@@ -38,9 +39,10 @@ impl Finding {
                 let left_out =
                     format!("vertical motion ({vertical} g beside {across} g) is left out");
                 match changed.is_empty() {
-                    true if changes.is_empty() => left_out,
+                    true if changes.is_empty() || changes.iter().any(changes_it) => left_out,
                     true => format!(
-                        "{left_out}: it changes nothing by more than {}",
+                        "{left_out}: no displacement or force that is given changes by more \
+                            than {}",
                         percent(LEAST_CHANGE)
                     ),
                     false => format!(
