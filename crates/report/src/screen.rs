@@ -43,7 +43,7 @@ const SPACIOUS: Crowding = Crowding {
     measured: 2,
     sentence: 3,
     both_commands: true,
-    program: 3,
+    program: 4,
     all_peaks: true,
 };
 

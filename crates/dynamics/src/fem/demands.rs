@@ -12,6 +12,7 @@
 use std::ops::ControlFlow;
 
 use super::{
+    contact::FootForce,
     landings::{Landing, MOMENT},
     observer::{Observer, View},
 };
@@ -84,9 +85,13 @@ pub fn between_landings(
 
 /// The forces at one instant.
 pub(super) fn demand(view: &View<f64>) -> DemandRow {
+    demand_of(view, &view.model.contact(&view.state.q, view.feet))
+}
+
+/// The same, of feet whose forces are known.
+fn demand_of(view: &View<f64>, feet: &[FootForce<f64>; 2]) -> DemandRow {
     let (model, q, v) = (view.model, &view.state.q, &view.state.v);
-    let feet = model.contact(q, view.feet);
-    let [left, right] = feet.map(|f| {
+    let [left, right] = feet.each_ref().map(|f| {
         let (h, n) = (f.horizontal, f.vertical);
         // D = (-dp_z/dtheta, dp_x/dtheta)
         let length = f.px_th.hypot(f.pz_th);
@@ -115,8 +120,8 @@ impl Observer<f64> for Demands {
         }
         self.rows.push(std::mem::take(&mut self.largest));
         let feet = view.model.contact(&view.state.q, view.feet);
-        self.feet.push(feet.map(|foot| [foot.horizontal, foot.vertical]));
-        self.at.push(demand(view));
+        self.feet.push(feet.each_ref().map(|foot| [foot.horizontal, foot.vertical]));
+        self.at.push(demand_of(view, &feet));
         ControlFlow::Continue(())
     }
 

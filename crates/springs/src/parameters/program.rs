@@ -229,8 +229,8 @@ impl<U> ProgramRow<U> {
         matches!(self.known(), Some(ProgramName::OpenSees))
     }
 
-    /// What is said of the springs: on synthetic motions, else on those like earthquakes.
-    pub fn measured(&self) -> Option<ProgramErrors> {
+    /// Synthetic motions, else those like earthquakes: what decides on whether springs are of use.
+    fn measured(&self) -> Option<ProgramErrors> {
         self.expected.synthetic.or(self.expected.earthquakes)
     }
 
