@@ -166,7 +166,7 @@ fn code(result: Result<(), CommandError>) -> ExitCode {
         Err(e) => {
             terminal::stderr(format_args!(
                 "error: {}",
-                printable(&e.to_string().replace(['\n', '\r'], " "))
+                printable(&without_number(&e.to_string().replace(['\n', '\r'], " ")))
             ));
             ExitCode::from(match e {
                 CommandError::Failed(_) => 1,
@@ -174,6 +174,17 @@ fn code(result: Result<(), CommandError>) -> ExitCode {
                 _ => 2,
             })
         }
+    }
+}
+
+/// A message without the operating system's number of an error: " (os error 2)".
+fn without_number(message: &str) -> String {
+    match message.split_once(" (os error ") {
+        Some((before, rest)) => match rest.split_once(')') {
+            Some((_, after)) => format!("{before}{after}"),
+            None => message.to_owned(),
+        },
+        None => message.to_owned(),
     }
 }
 

@@ -192,7 +192,7 @@ fn what_cannot_be_is_refused_in_one_line_before_anything_is_written() {
         (
             "frequency_hz = 2.0",
             "frequency_hz = 2.0\nei_nm2 = 1e9",
-            "one of ei_nm2 and frequency_hz",
+            "ei_nm2 and frequency_hz are both given",
         ),
         ("frequency_hz = 2.0", "ei_nm2 = 1e3", "buckles"),
         ("frequency_hz", "frequenzy_hz", "did you mean \"frequency_hz\""),

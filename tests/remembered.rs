@@ -46,7 +46,7 @@ fn screen(output: &Output) -> String {
 fn record_scale_and_duration_are_remembered_until_told_otherwise() {
     let dir = folder();
     let run = tune(dir.path(), &[&RUN[..], &["out"]].concat());
-    let used = "scale 1.5, first 8 s of 12 s, step 0.01 s, PGA 0.46";
+    let used = "scale 1.5, 8 of 12 s, step 0.01 s, PGA 0.46";
     assert!(screen(&run).contains(used), "{}", screen(&run));
     let parameters = json(&fs::read(dir.path().join("out/parameters.json")).unwrap());
     let row = &parameters["record"];
@@ -100,7 +100,7 @@ fn record_scale_and_duration_are_remembered_until_told_otherwise() {
 fn a_scale_on_the_command_line_replaces_the_cases() {
     let dir = folder();
     let run = tune(dir.path(), &[&RUN[..], &["given", "--scale", "1.5"]].concat());
-    assert!(screen(&run).contains("scale 1.5, first 8 s of 12 s, step 0.01 s"), "{}", screen(&run));
+    assert!(screen(&run).contains("scale 1.5, 8 of 12 s, step 0.01 s"), "{}", screen(&run));
     let plain = tune(dir.path(), &[&RUN[..], &["plain"]].concat());
     // the same screen but for the folder in its commands
     assert_eq!(screen(&run).replace("given/", "F/"), screen(&plain).replace("plain/", "F/"));

@@ -1,9 +1,9 @@
-//! `tune init`: a case file to begin with, every line explained.
+//! `tune init`: a case file, or a sweep file, to begin with, every line explained.
 
 use std::{
     fs::OpenOptions,
     io::{ErrorKind, Write},
-    path::PathBuf,
+    path::{Path, PathBuf},
 };
 
 use clap::{Args, ValueEnum};
@@ -27,6 +27,8 @@ enum StructureShape {
     ElasticAFrame,
     /// Two elastic columns on two footings under a beam
     Frame,
+    /// A rigid body on many ground motions: a file for `tune sweep`
+    Sweep,
 }
 
 /// Options of `tune init`.
@@ -35,10 +37,33 @@ pub struct InitOptions {
     /// What rocks
     #[arg(value_enum, default_value_t = StructureShape::AFrame)]
     shape: StructureShape,
-    /// The case file to write; one that is there stays as it is
-    #[arg(long, value_name = "PATH", default_value = "case.toml")]
-    out: PathBuf,
+    /// The file to write, case.toml or sweep.toml unless given; one that is there stays as it is
+    #[arg(long, value_name = "PATH")]
+    out: Option<PathBuf>,
 }
+
+const SWEEP: &str = "\
+# A file for `tune sweep`: one rigid body or more on many ground motions, each at many levels.
+
+[sweep]
+kind = \"fragility\"       # how likely it rocks and overturns
+seed = 1                 # of the motions that are made
+
+[[structure]]            # as [structure] of a case; as many as you like
+kind = \"block\"           # or \"aframe\"
+total_height_m = 2.0
+width_m = 0.5
+mass_kg = 400.0
+
+[records]                # any of these, or several
+earthquakes = 100        # made, like earthquakes
+# like = \"motion.at2\"    # made, with the spectrum and the envelope of this one
+# files = [\"a.at2\", \"b.V2A\"]
+# el_centro = true
+
+[levels]                 # or scale = [0.5, 1.0, 1.5]
+pga_g = { from = 0.1, to = 2.0, count = 20, spacing = \"log\" }
+";
 
 const AFRAME: &str = "\
 [structure]
@@ -132,6 +157,7 @@ accuracy = 0.002         # of the history against the reference's, normalised: s
 /// The text for a shape.
 fn text(shape: StructureShape) -> String {
     let (structure, restitution) = match shape {
+        StructureShape::Sweep => return SWEEP.into(),
         StructureShape::AFrame => (AFRAME, RESTITUTION),
         StructureShape::Block => (BLOCK, RESTITUTION),
         StructureShape::Pier => (PIER, ""),
@@ -145,7 +171,11 @@ fn text(shape: StructureShape) -> String {
 }
 
 pub fn run(o: &InitOptions) -> Result<(), CommandError> {
-    let out = file_in(&o.out, "case.toml")?;
+    let (name, command) = match o.shape {
+        StructureShape::Sweep => ("sweep.toml", "sweep"),
+        _ => ("case.toml", "run"),
+    };
+    let out = file_in(o.out.as_deref().unwrap_or(Path::new(name)), name)?;
     let path = out.display().to_string();
     let there = |source: std::io::Error| match source.kind() {
         ErrorKind::AlreadyExists => CommandError::Result(format!(
@@ -158,7 +188,7 @@ pub fn run(o: &InitOptions) -> Result<(), CommandError> {
     }
     let mut file = OpenOptions::new().write(true).create_new(true).open(&out).map_err(there)?;
     file.write_all(text(o.shape).as_bytes()).map_err(there)?;
-    terminal::stderr(format_args!("written to {path}: edit it, then `tune run {path}`"));
+    terminal::stderr(format_args!("written to {path}: edit it, then `tune {command} {path}`"));
     Ok(())
 }
 
@@ -188,6 +218,20 @@ mod tests {
             ElasticCase::parse("case.toml", &text(shape)).unwrap();
             assert_eq!(ElasticCase::parse("case.toml", &used).unwrap().max_omega_hz, Some(160.0));
         }
+    }
+
+    /// With the files that it names, and as it is.
+    #[test]
+    fn the_file_of_a_sweep_is_one() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("sweep.toml");
+        let plan = |text: &str| {
+            std::fs::write(&path, text).unwrap();
+            sweep::plan::Plan::read(&path).unwrap()
+        };
+        let text = text(StructureShape::Sweep);
+        assert_eq!(plan(&text).cells(), 100 * 20);
+        assert_eq!(plan(&text.replace("# el_centro", "el_centro")).cells(), 101 * 20);
     }
 
     /// The text with what is commented out.

@@ -16,7 +16,7 @@ fn cases_and_parameters_in_other_encodings_or_none() {
         refuses_bytes(
             &[("c.toml", bytes)],
             &["run", "c.toml", "--out", "o"],
-            &["c.toml: cannot be read", "UTF-8"],
+            &["c.toml: not a text file", "tune init"],
         );
     }
     let simulate = ["simulate", "--parameters", "p.json"];

@@ -16,11 +16,11 @@ fn a_motion_of_nothing() {
     for zero in ["0.0", "0", "-0.0"] {
         run_case(
             &format!("{STRUCTURE}[record]\nscale = {zero}\n"),
-            &["case.toml: record.scale is", "give another factor"],
+            &["case.toml, line 7: record.scale is", "give another factor"],
         );
         run_case(
             &format!("{PIER}[record]\nscale = {zero}\n"),
-            &["case.toml: record.scale is", "give another factor"],
+            &["case.toml, line 11: record.scale is", "give another factor"],
         );
         refuses(
             &[],
@@ -198,7 +198,7 @@ fn a_table_of_several_columns() {
     refuses(
         &[("case.toml", &both), ("a.csv", NAMED)],
         &["run", "case.toml"],
-        &["case.toml: record.component is \"acc1\"", "leave one"],
+        &["case.toml, line 9: record.component is \"acc1\"", "leave one"],
     );
     refuses(&[], &["run", "--column", "2"], &["--column", "name it with --record"]);
 }

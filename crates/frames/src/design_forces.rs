@@ -135,8 +135,7 @@ pub struct StructureForce {
     /// Of a force that holds over that part alone: what it is over the whole record.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub whole_record: Option<OtherForces>,
-    /// Of a force that is larger later and does not hold there: what it is, and holds, over the
-    /// part that can be foretold.
+    /// Of a force that is larger after what can be foretold: what it is, and holds, up to then.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub held: Option<HeldForce>,
     /// The structure held to the ground, below the same cutoff.
@@ -148,11 +147,11 @@ pub struct StructureForce {
 }
 
 impl StructureForce {
-    /// Of the whole record, and does not hold: beside what it is, and holds, over a part of it.
-    /// What is larger later is not to be designed by what was before.
+    /// Of the whole record, and does not hold or is largest after what can be foretold: beside what
+    /// it is, and holds, up to then. What is larger later is not to be designed by what was before.
     fn beside(self, part: Self) -> Self {
         let (later, found) = (self.others.found.abs(), part.others.found.abs());
-        if later > (1.0 + MOST_CHANGE) * found {
+        if self.holds || later > (1.0 + MOST_CHANGE) * found {
             let held = Some(HeldForce { value: part.others.found, over_s: part.over_s });
             Self { held, ..self }
         } else {
@@ -203,11 +202,13 @@ impl StructureForces {
         let cutoff = Cutoff::of(&assembled.structure);
         let of =
             |history: &ElasticHistory, over: f64| ForcePeaks::of(history, cutoff.as_ref(), over);
+        let twice = cutoff.as_ref().map(Cutoff::doubled);
         let variants = checked.then(|| Variants::of(assembled, springs, record)).transpose()?;
         let held = of(fixed, f64::INFINITY);
         // all forces of all motions over the same time
         let over = |seconds: f64| -> Vec<StructureForce> {
             let peaks = of(fem, seconds);
+            let faster = twice.as_ref().map(|twice| ForcePeaks::of(fem, Some(twice), seconds));
             let peaks_of = |pick: fn(&Variants) -> Option<&ElasticHistory>| {
                 variants.as_ref().and_then(pick).map(|history| of(history, seconds))
             };
@@ -227,6 +228,7 @@ impl StructureForces {
                         .map(|finer| value(finer, kind).unwrap_or(f64::INFINITY)),
                     softer: softer.as_ref().and_then(|softer| value(softer, kind)),
                     stiffer: stiffer.as_ref().and_then(|stiffer| value(stiffer, kind)),
+                    doubled_cutoff: faster.as_ref().and_then(|faster| value(faster, kind)),
                 };
                 let holds = others.change() < MOST_CHANGE;
                 Some(StructureForce {
@@ -254,11 +256,12 @@ impl StructureForces {
         };
         let mut forces = over((record.len().saturating_sub(1)) as f64 * record.dt);
         // beyond what can be foretold motions part, and with them their peaks
-        if forces.iter().any(|force| !force.holds) {
+        let until = foretold_s.unwrap_or(f64::INFINITY);
+        let doubtful = |force: &StructureForce| !force.holds || force.time_s > until;
+        if forces.iter().any(doubtful) {
             for part in foretold_s.map(over).into_iter().flatten().filter(|part| part.holds) {
-                if let Some(whole) =
-                    forces.iter_mut().find(|whole| whole.kind == part.kind && !whole.holds)
-                {
+                let same = |whole: &&mut StructureForce| whole.kind == part.kind && doubtful(whole);
+                if let Some(whole) = forces.iter_mut().find(same) {
                     *whole = whole.beside(part);
                 }
             }

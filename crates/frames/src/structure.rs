@@ -58,7 +58,11 @@ pub enum ElasticError {
             is 0.03"
     )]
     Damping { name: &'static str, value: f64 },
-    #[error("structure: give one of ei_nm2 and frequency_hz")]
+    #[error(
+        "structure: {}",
+        if *.both { "ei_nm2 and frequency_hz are both given; leave one out" }
+        else { "give one of ei_nm2 and frequency_hz" }
+    )]
     Bending { both: bool },
     #[error(
         "structure: footing_height_m is {footing:?} and height_m {height:?}; the column between \

@@ -17,7 +17,7 @@ use springs::{
 pub(crate) const THIS_RECORD: &str = "this record";
 
 /// Of a record whose motion cannot be predicted: two models that are equally right part on it.
-const UNJUDGED: &str = "this record is too sensitive to judge springs";
+const UNJUDGED: &str = "this record is too sensitive";
 
 /// An error measured on a record or on a set of motions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -114,9 +114,10 @@ impl AccuracyReport {
         }
     }
 
-    /// The same for a screen: on the first so many of the record and the sets of motions; that this
-    /// record, if there is one, does not judge springs.
-    pub fn short(&self, sets: usize, of_record: bool) -> String {
+    /// The same for a screen, in parts, of which the last may be left out: on the first so many of
+    /// the record and the sets of motions; that this record, if there is one, does not judge
+    /// springs.
+    pub fn short(&self, sets: usize, of_record: bool) -> Vec<String> {
         let on = |(i, row): (usize, &AccuracyOn)| {
             let [peaks, nrmse] = if i == 0 { ["peaks within ", "NRMSE "] } else { [""; 2] };
             let peaks = row.peaks.map(|error| format!("{peaks}{}", within(error, row.worst)));
@@ -125,14 +126,17 @@ impl AccuracyReport {
             format!("{}: {}", row.on, both.join(", "))
         };
         let measured: Vec<String> = self.measured().take(sets).enumerate().map(on).collect();
-        match (measured.is_empty(), self.reached) {
-            (true, _) => self.sentence(),
-            (false, true) if of_record && !self.on_record() => {
-                format!("on {}; as asked; {UNJUDGED}", measured.join("; "))
-            }
-            (false, true) => format!("{}; as asked", measured.join("; ")),
-            (false, false) => format!("{}; NOT as asked ({})", measured.join("; "), self.asked()),
+        if measured.is_empty() {
+            return vec![self.sentence()];
         }
+        let reached = if self.reached { "asked" } else { "NOT reached" };
+        let mut said = vec![format!("{reached}: {}", self.asked())];
+        said.extend((of_record && !self.on_record()).then(|| UNJUDGED.to_string()));
+        // what goes wrong first
+        if self.reached {
+            said.reverse();
+        }
+        measured.into_iter().chain(said).collect()
     }
 
     /// Whether something was measured on the record itself.
@@ -149,7 +153,7 @@ impl AccuracyReport {
     fn asked(&self) -> String {
         match (self.peaks_asked, self.history_asked) {
             (Some(peaks), _) => format!("peaks within {}", within(peaks, None)),
-            (None, Some(history)) => format!("history {}", significant(history, 3)),
+            (None, Some(history)) => format!("NRMSE {}", significant(history, 3)),
             (None, None) => "nothing".into(),
         }
     }
@@ -208,12 +212,12 @@ mod tests {
         };
         assert_eq!(
             report.sentence(),
-            "on this record: peaks within 0.013 % (uplift), history 2.2e-5 (NRMSE); asked: history \
+            "on this record: peaks within 0.013 % (uplift), history 2.2e-5 (NRMSE); asked: NRMSE \
                 0.002, reached"
         );
         assert_eq!(
             report.short(2, true),
-            "this record: peaks within 0.013 % (uplift), NRMSE 2.2e-5; as asked"
+            ["this record: peaks within 0.013 % (uplift), NRMSE 2.2e-5", "asked: NRMSE 0.002"]
         );
         assert_eq!(report.table().rows[0][2], "0.013 %");
         report.measured.clear();

@@ -8,6 +8,10 @@ use springs::results::{PeakTimes, Peaks};
 type PeakRow =
     (&'static str, fn(&Peaks) -> Option<f64>, fn(f64) -> String, fn(&PeakTimes) -> Option<f64>);
 
+/// The row of the friction needed.
+pub(crate) const FRICTION: &str = "friction needed";
+/// The column of differences.
+pub(crate) const DIFFERENCE: usize = 3;
 /// The row of what feet move.
 const MOVED: &str = "  feet moved";
 /// Share of the top's displacement below which it is not said.
@@ -106,7 +110,7 @@ pub fn peak_table(run: &Run) -> Option<Table> {
     };
     let mut table = Table::new(head).with(ROWS.into_iter().filter_map(row));
     if let Some(needed) = run.friction_needed {
-        let mut row = vec!["friction needed".to_string(), significant(needed, 3)];
+        let mut row = vec![FRICTION.to_string(), significant(needed, 3)];
         row.resize(table.head.len(), String::new());
         table.rows.push(row);
     }

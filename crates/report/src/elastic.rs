@@ -179,6 +179,7 @@ impl ElasticParts<'_> {
                 horizontal_g,
                 overturns_s,
                 changes,
+                checked: false,
             });
         };
         let with = with?;
@@ -190,7 +191,8 @@ impl ElasticParts<'_> {
             with: with.top_displacement,
         };
         let change = |(kind, with): (ForceKind, f64)| {
-            let without = self.answer.design.get(kind)?.value?.abs();
+            // what is withheld may matter most
+            let without = self.answer.design.get(kind)?.others.found.abs();
             let (quantity, unit) = (kind.name().to_string(), kind.unit().to_string());
             Some(PeakChange { quantity, unit, without, with: with.abs() })
         };
@@ -199,6 +201,7 @@ impl ElasticParts<'_> {
             horizontal_g,
             overturns_s: with.overturns.filter(|_| !fell),
             changes: [top].into_iter().chain(with.forces.into_iter().filter_map(change)).collect(),
+            checked: false,
         })
     }
 

@@ -317,12 +317,14 @@ impl Run {
             let until_then = until_then.map_or(String::new(), |top| format!(" (top {top})"));
             return format!("; predictable to {} s{until_then}{later}", s(until));
         }
+        if let Some(time) = self.peaks.and_then(|pair| pair.reference_ends_s) {
+            return format!("; beyond {} s on springs alone", files::message::significant(time, 4));
+        }
         let in_part = any(|f| match f {
             Finding::DeckJudged { end, .. } => *end != DeckEnd::Record,
             _ => matches!(
                 f,
                 Finding::ModelsDisagree { .. }
-                    | Finding::PivotLeavesGround { .. }
                     | Finding::HistoryEndsEarly { .. }
                     | Finding::NoAnswer { .. }
             ),
@@ -377,7 +379,7 @@ impl Run {
 }
 
 /// Up to when a motion can be foretold (s), if that is not all of it.
-pub(crate) fn predictable_to(findings: &[FiledFinding]) -> Option<f64> {
+pub fn predictable_to(findings: &[FiledFinding]) -> Option<f64> {
     findings.iter().find_map(|filed| match filed.finding {
         Finding::ForetoldUpTo { time_s, .. } | Finding::SlidesOn { time_s, .. } => Some(time_s),
         Finding::IllConditioned { holds_to_s: Some(time_s), .. } => Some(time_s),

@@ -185,7 +185,7 @@ pub fn force_value(name: ForceName, force: &DesignForce) -> String {
     let part = force
         .over_s
         .map_or(String::new(), |over| format!(" (to {} s{whole})", significant(over, 3)));
-    newtons(value) + &part
+    newtons(value) + &part + &held_words(name, force)
 }
 
 /// Between what a withheld force lies: the unit once, if it is the same.
@@ -198,7 +198,7 @@ pub(crate) fn range_words(name: ForceName, range: [f64; 2]) -> String {
     }
 }
 
-/// What a withheld force is over the part of the record where it holds, in words.
+/// What a force that is larger later is, and holds, up to when a motion can be foretold, in words.
 pub(crate) fn held_words(name: ForceName, force: &DesignForce) -> String {
     force.held.map_or(String::new(), |held| {
         let newtons = quantity(held.value.abs(), name.unit());
@@ -220,14 +220,14 @@ fn together(run: &Run) -> Option<Section> {
     let forces = run.design_forces?;
     let legs = forces.apex_moment_nm.is_some();
     let row = |(name, force): (ForceName, DesignForce)| {
-        let with = force.together?;
+        // nor is what acts together with one that does not hold
+        let with = force.together.filter(|_| force.holds)?;
         let moment = with.apex_moment_nm.unwrap_or(with.column_base_moment_nm);
         let cells = [(with.axial_n, "N"), (moment, "N m"), (with.column_shear_n, "N")];
-        let withheld = if force.holds { "" } else { " (withheld)" };
         let at = format!("{} s", significant(force.time_s, 4));
         Some(
             [
-                vec![format!("largest {}{withheld}", words(name)), at],
+                vec![format!("largest {}", words(name)), at],
                 cells.map(|(x, unit)| quantity(x, unit)).into(),
             ]
             .concat(),
@@ -267,13 +267,28 @@ fn other_forces(run: &Run) -> Option<Section> {
         let cell = |x: Option<f64>| x.map_or("-".into(), |x| quantity(x, name.unit()));
         let held = if force.holds { "holds" } else { "withheld" };
         let cells =
-            [Some(others.found), others.doubled_elements, others.softer, others.stiffer, force.raw]
-                .map(cell);
-        Some([vec![name.words().to_string()], cells.into(), vec![held.into()]].concat())
+            [Some(others.found), others.doubled_elements, others.softer, others.stiffer].map(cell);
+        let beyond = [others.doubled_cutoff, force.raw].map(cell);
+        let name = vec![name.words().to_string()];
+        Some([name, cells.into(), vec![held.into()], beyond.into()].concat())
     };
-    let rows: Vec<_> = run.design_forces?.all().filter_map(row).collect();
-    let head =
-        ["force", "in this run", "elements doubled", "Omega_n / 4", "4 Omega_n", "unfiltered", ""];
+    let forces = run.design_forces?;
+    let rows: Vec<_> = forces.all().filter_map(row).collect();
+    let twice = match forces.below_hz {
+        Some(hz) => format!("below {} Hz", significant(2.0 * hz, 3)),
+        None => "below twice the frequency".into(),
+    };
+    let head = ["force", "in this run", "elements doubled", "Omega_n / 4", "4 Omega_n", ""];
+    let head = head.map(String::from).into_iter().chain([twice, "unfiltered".into()]);
+    let waves = forces.below_hz.map(|hz| {
+        format!(
+            "Forces are given below {} Hz: one and a half times the third bending mode of the \
+                column on a fixed footing. The last two columns have what faster waves of a \
+                landing add in this run: how much hangs on how suddenly it lands, which a rigid \
+                footing does not tell.",
+            significant(hz, 3)
+        )
+    });
     (!rows.is_empty()).then(|| Section {
         id: "other-forces",
         title: "The same forces with another mesh and on other springs".into(),
@@ -281,7 +296,10 @@ fn other_forces(run: &Run) -> Option<Section> {
             "The largest magnitude over the same time. A force whose magnitude changes by 5 % or \
                 more is withheld."
                 .into(),
-        ],
+        ]
+        .into_iter()
+        .chain(waves)
+        .collect(),
         table: Some(Table::new(head).with(rows)),
         ..Section::default()
     })
@@ -320,6 +338,7 @@ mod tests {
             doubled_elements: None,
             softer: Some(2.66e6),
             stiffer: Some(2.5e6),
+            doubled_cutoff: None,
         };
         let between = DesignForce { others: Some(others), ..changes };
         assert_eq!(

@@ -170,10 +170,16 @@ fn programs(run: &Run) -> (&'static str, &'static str, String) {
                             friction out."
                     }
                 };
+                let settings = program.settings(true);
+                let set_to = match settings.is_empty() {
+                    true => settings,
+                    false => format!("; set to {settings}"),
+                };
                 format!(
-                    "<p>{}: {}.{deck}</p>\n",
+                    "<p>{}: {}{}.{deck}</p>\n",
                     escape(&program.program),
-                    escape(&program.line(None, true))
+                    escape(&program.line(true)),
+                    escape(&set_to)
                 )
             }
         };

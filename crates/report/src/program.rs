@@ -17,6 +17,11 @@ use springs::{
 /// Letters of a name in the first column of a screen.
 const NAME: usize = 9;
 
+/// A tolerance above which one suspects a misprint.
+const LARGE: f64 = 0.01;
+/// That it is none.
+const MEANT: &str = " (meant so large)";
+
 /// Springs for a program with fixed time steps.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ProgramReport {
@@ -28,6 +33,9 @@ pub struct ProgramReport {
     pub set_to: Vec<ProgramSetting>,
     /// What the springs err there, measured in this run.
     pub errors: String,
+    /// The same in fewer words.
+    #[serde(skip)]
+    short_errors: String,
     /// The units, as the run's own.
     pub units: Vec<Unit>,
     /// The same errors in parts and suites.
@@ -98,12 +106,13 @@ impl ProgramReport {
         peaks: (&str, bool),
     ) -> Self {
         let tolerance = match row.converged {
-            ProgramTest::UnbalanceOverWeight(x) => {
-                let x = significant(x, 3);
+            ProgramTest::UnbalanceOverWeight(value) => {
+                let x = significant(value, 3);
+                let meant = if value > LARGE { MEANT } else { "" };
                 ProgramSetting::new(
                     "iteration convergence tolerance, relative",
                     x.clone(),
-                    format!("tolerance {x}"),
+                    format!("tolerance {x}{meant}"),
                 )
             }
             ProgramTest::IncrementM(x) => {
@@ -123,7 +132,7 @@ impl ProgramReport {
             ProgramSetting::new(
                 "iterations with constant stiffness",
                 "0".into(),
-                format!("iterations 0 constant + {newton} Newton"),
+                format!("0 constant + {newton} Newton iterations"),
             ),
             ProgramSetting::new(
                 "Newton-Raphson iterations, at most",
@@ -131,14 +140,15 @@ impl ProgramReport {
                 String::new(),
             ),
             tolerance,
-            ProgramSetting::new("smallest substep", least.clone(), format!("substeps to {least}")),
+            ProgramSetting::new("smallest substep", least.clone(), format!("substeps {least}")),
         ];
         set_to.extend(inertia);
         Self {
             program: row.program(),
             steps: quantity(row.step_s, "s"),
             set_to,
-            errors: errors(row, peaks),
+            errors: errors(row, peaks, true),
+            short_errors: errors(row, peaks, false),
             units,
             table: table(row),
             usable: row.mostly_lost().is_none(),
@@ -157,19 +167,19 @@ impl ProgramReport {
         if self.program.chars().count() <= NAME { &self.program } else { "even step" }
     }
 
-    /// For a screen: what goes wrong and the errors, the file that has the settings if there is
-    /// one, and the settings if they are `told`; none of springs that are not to be used.
-    pub(crate) fn line(&self, settings_in: Option<&str>, told: bool) -> String {
-        let mut line = format!("{} steps: {}", self.steps, self.errors);
-        if self.usable {
-            line += &settings_in.map_or(String::new(), |file| format!("; to type: {file}"));
-            let all = self.set_to.iter().map(|s| s.short.as_str());
-            let set_to: Vec<&str> = all.filter(|short| !short.is_empty()).collect();
-            if told {
-                line += &format!("; {}", set_to.join(", "));
-            }
-        }
-        line
+    /// For a screen: what goes wrong and the errors; where there is little room, on how many
+    /// motions and the history's are left out.
+    pub(crate) fn line(&self, room: bool) -> String {
+        let errors = if room { &self.errors } else { &self.short_errors };
+        format!("{} steps: {errors}", self.steps)
+    }
+
+    /// For a screen: what the program is to be set to; nothing of springs that are not to be used.
+    pub(crate) fn settings(&self, room: bool) -> String {
+        let all = self.set_to.iter().map(|s| s.short.as_str());
+        let set_to: Vec<&str> = all.filter(|short| self.usable && !short.is_empty()).collect();
+        let set_to = set_to.join(", ");
+        if room { set_to } else { set_to.replace(MEANT, "") }
     }
 
     /// For a report.
@@ -233,7 +243,7 @@ fn late(peaks: Option<PeakPair>, findings: &[FiledFinding]) -> bool {
 
 /// What goes wrong, if something does; then the errors, largest displacement first: median and what
 /// 90 % are below.
-fn errors<U>(row: &ProgramRow<U>, (peaks, late): (&str, bool)) -> String {
+fn errors<U>(row: &ProgramRow<U>, (peaks, late): (&str, bool), room: bool) -> String {
     let nothing = String::new;
     let suites = [
         ("motions", row.expected.synthetic),
@@ -268,8 +278,17 @@ fn errors<U>(row: &ProgramRow<U>, (peaks, late): (&str, bool)) -> String {
         format!("this record: gives up at {} s, try another --step; ", significant(s, 3))
     });
     let top = top.filter(|_| ends.is_empty());
-    let mark = if late { " (not predictable)" } else { "" };
-    let here = top.map_or(nothing(), |top| format!("this record: top {}{mark}; ", signed(top)));
+    let here = top.map_or(nothing(), |top| match (late, room) {
+        (true, true) => format!("this record: top {} (not predictable); ", signed(top)),
+        // the table of peaks says what the asterisk is
+        (true, false) => format!("here top {}*; ", signed(top)),
+        (false, true) => format!("this record: top {}; ", signed(top)),
+        (false, false) => format!("here top {}; ", signed(top)),
+    });
+    if !room {
+        let fails = fails.replace(" motions", "");
+        return format!("{ends}{fails}{here}{peaks} {median} (median), {ninety} (90 %)");
+    }
     // how many there are is said with those that fail
     let told = lost > 0 && suites.len() == 1;
     let on = if told { nothing() } else { format!(" on {} {name}", errors.histories) };

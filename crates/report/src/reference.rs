@@ -16,6 +16,9 @@ use springs::{
 };
 use strong_motion::Record;
 
+/// Largest rotation, over alpha, of a body that rocks.
+const ROCKS: f64 = 0.02;
+
 /// Conditioning and regime of Housner's history.
 #[derive(Clone, Copy, Debug)]
 pub struct HousnerReport {
@@ -66,13 +69,9 @@ impl HousnerReport {
         }
     }
 
-    /// Friction coefficient needed: at rest, rocking, and in a landing.
+    /// Friction coefficient needed.
     pub(crate) fn friction_needed(&self) -> f64 {
-        self.regime.friction_needed.value.max(if self.lifted {
-            self.regime.landing_friction
-        } else {
-            0.0
-        })
+        friction_needed(&self.regime, self.lifted)
     }
 
     /// Where pure rocking does not hold.
@@ -107,6 +106,11 @@ impl HousnerReport {
         }
         all
     }
+}
+
+/// Friction coefficient needed: at rest, rocking, and in a landing of a body that lifted.
+pub(crate) fn friction_needed(of: &Regime, lifted: bool) -> f64 {
+    of.friction_needed.value.max(if lifted { of.landing_friction } else { 0.0 })
 }
 
 /// All findings on histories of given springs.
@@ -173,9 +177,12 @@ pub(crate) fn ill_conditioned(
     springs_judged: bool,
 ) -> Option<Finding> {
     let changes = &report.conditioning.changes;
-    (report.lifted && !verdict.well_conditioned).then(|| Finding::IllConditioned {
+    // a solution that ends before anything rocks is of no history
+    let ends_at_once = report.left_ground_s.is_some() && verdict.housner.peak_ratio < ROCKS;
+    (report.lifted && !verdict.well_conditioned && !ends_at_once).then(|| Finding::IllConditioned {
         moved_by_width: changes.width[0],
         moved_by_scale: changes.scale[0],
+        moved_by_restitution: Some(changes.restitution[0]),
         holds_to_s: report.holds_to_s,
         springs_judged,
     })

@@ -9,7 +9,7 @@ pub mod tables;
 use super::{
     AccuracyReport, Assumed, FiledParameters, ProgramReport, Run, Section, Taken, changes, doubts,
     filed, judged, predictable_to,
-    reference::{self, HousnerReport},
+    reference::{self, HousnerReport, friction_needed},
     stiffness_tradeoff::TradeoffPoint,
     unit_of,
 };
@@ -21,13 +21,14 @@ use limits::springs_findings;
 use peaks::{peaks, peaks_to};
 use rocking::{
     members::Members,
+    regime,
     structure::{Kind, Structure},
 };
 use springs::{
     answers::{MemberHistory, ModelComparison, both, with_members},
     case::{Case, Objective, doubts::Doubt},
     parameters::{ConditioningRow, PaperProcedure, Parameters},
-    results::Finding,
+    results::{Finding, PeakChange},
     rigid_forces::design_forces,
     tuning::{job::Job, paper_procedure::table_1},
 };
@@ -92,14 +93,15 @@ impl RigidRun {
         if let Some(row) = &mut parameters.program {
             row.on_record = on_record;
         }
-        let softer = softer(&case, &job, &both);
+        let (softer, until) = (softer(&case, &job, &both), report.holds_to_s);
         parameters.design_forces =
-            Some(design_forces(kind, &job.body, &job.record, &both, softer.as_ref()));
-        parameters.design_forces =
-            parameters.design_forces.map(|forces| forces.foretold_to(report.holds_to_s));
+            Some(design_forces(kind, &job.body, &job.record, &both, softer.as_ref(), until));
+        parameters.design_forces = parameters.design_forces.map(|forces| forces.foretold_to(until));
         let mut run = Self { case, job, front, both, report, of_steps, parameters };
         run.parameters.findings = filed(run.findings());
+        let forces = run.parameters.design_forces;
         if let Some(until) = predictable_to(&run.parameters.findings) {
+            run.parameters.design_forces = forces.map(|forces| forces.foretold_to(Some(until)));
             let part = peaks_to(Some(until), kind, &run.job.body, run.job.record.dt, &run.both);
             run.parameters.peaks = run.parameters.peaks.map(|peaks| peaks.foretold(until, &part));
         }
@@ -182,31 +184,43 @@ impl RigidRun {
         let kind = case.structure.kind;
         let (peaks, forces) = (
             peaks(kind, &job.body, record.dt, &both),
-            design_forces(kind, &job.body, &record, &both, None),
+            design_forces(kind, &job.body, &record, &both, None, None),
         );
         let given = (self.parameters.peaks, self.parameters.design_forces);
-        let changes = changes(super::force_words(kind), given, (peaks, forces));
+        let mut changes = changes(super::force_words(kind), given, (peaks, forces));
+        let ground = (&record.accel[..], record.up());
+        let needed = regime::check(&job.body, record.dt, ground, 1.0, &both.rocking, f64::INFINITY);
+        changes.push(PeakChange {
+            quantity: "friction needed".into(),
+            unit: String::new(),
+            without: self.report.friction_needed(),
+            with: friction_needed(&needed, true),
+        });
         let fell = |both: &ModelComparison| {
             both.matched.overturned_housner_s.or(both.matched.overturned_fem_s)
         };
         let overturns_s = fell(&both).filter(|_| fell(&self.both).is_none());
-        Some(Finding::VerticalLeftOut { vertical_g, horizontal_g, overturns_s, changes })
+        let checked = true;
+        Some(Finding::VerticalLeftOut { vertical_g, horizontal_g, overturns_s, changes, checked })
     }
 
     fn sections(&self) -> Vec<Section> {
         let mut all = Vec::new();
         let mut columns = vec![("", &self.both.demands)];
         columns.extend(self.both.with.as_ref().map(|with| ("with members, ", &with.demands)));
+        let kind = self.case.structure.kind;
+        let of_legs = match kind {
+            Kind::AFrame => " Axial force is positive in tension; moments are those at the mass.",
+            Kind::Block => "",
+        };
         all.push(Section {
             id: "elements",
             title: "Forces of the finite elements".into(),
-            text: vec![
+            text: vec![format!(
                 "Between landings: later than 0.1/p after the last touch-down. In landings they \
-                    are forces of the springs and grow with Omega_n: not to design with. Axial \
-                    force is positive in tension; moments are those at the mass."
-                    .into(),
-            ],
-            table: Some(tables::finite_element_forces(&columns)),
+                    are forces of the springs and grow with Omega_n: not to design with.{of_legs}"
+            )],
+            table: Some(tables::finite_element_forces(kind, &columns)),
             ..Section::default()
         });
         if !self.front.is_empty() {

@@ -6,7 +6,11 @@ mod forces;
 mod lines;
 mod warnings;
 
-use super::{Run, Table, Unit, peak_table};
+use super::{
+    Run, Table, Unit,
+    displacements::{DIFFERENCE, FRICTION},
+    peak_table,
+};
 use files::message::{shortened, significant};
 use lines::{at_most, wrap};
 use warnings::{Warned, is_doubt, tell, warning_lines, warnings};
@@ -29,9 +33,9 @@ struct Crowding {
     sentence: usize,
     /// Whether the deck's own command stands beside that which checks it.
     both_commands: bool,
-    /// Lines of the program with fixed time steps.
+    /// Lines of what a program with fixed time steps errs.
     program: usize,
-    /// Whether impacts and the friction needed stand in the table of peaks.
+    /// Whether impacts, and the friction needed, stand in the table of peaks.
     all_peaks: bool,
 }
 
@@ -43,7 +47,7 @@ const SPACIOUS: Crowding = Crowding {
     measured: 2,
     sentence: 3,
     both_commands: true,
-    program: 4,
+    program: 2,
     all_peaks: true,
 };
 
@@ -55,7 +59,7 @@ const CLOSEST: Crowding = Crowding {
     measured: 1,
     sentence: 2,
     both_commands: false,
-    program: 2,
+    program: 1,
     all_peaks: true,
 };
 
@@ -64,10 +68,10 @@ const CLOSEST: Crowding = Crowding {
 const CROWDING: [Crowding; 6] = [
     SPACIOUS,
     Crowding { empty_line: false, ..SPACIOUS },
+    Crowding { assumed: 2, accuracy: 2, ..CLOSEST },
     Crowding { assumed: 2, ..CLOSEST },
     CLOSEST,
-    Crowding { program: 1, ..CLOSEST },
-    Crowding { program: 1, all_peaks: false, ..CLOSEST },
+    Crowding { all_peaks: false, ..CLOSEST },
 ];
 
 /// What is said where no springs suit steps of one size.
@@ -81,8 +85,8 @@ pub const SHEET: &str = "sap2000_by_hand.txt";
 const LONGEST_PATH: usize = 58;
 /// Lines that a doubt of what was given may take.
 const LONGEST_CHECK: usize = 2;
-/// Rows of the table of peaks that give way to warnings.
-const ASIDE: [&str; 2] = ["impacts", "friction needed"];
+/// The row of the table of peaks that gives way to warnings.
+const IMPACTS: &str = "impacts";
 /// What a doubt of what was given begins with.
 const CHECK: &str = "CHECK     ";
 /// What the report's line begins with.
@@ -103,7 +107,28 @@ pub struct Written<'a> {
 impl Written<'_> {
     /// A file of the folder, as it can be typed if it is not too long.
     fn file(&self, name: &str) -> String {
-        shortened(&format!("{}/{name}", self.folder.trim_end_matches('/')), LONGEST_PATH)
+        self.within(name, LONGEST_PATH)
+    }
+
+    /// The same, of at most so many letters.
+    fn within(&self, name: &str, most: usize) -> String {
+        shortened(&format!("{}/{name}", self.folder.trim_end_matches('/')), most)
+    }
+
+    /// The last line: where the report is, how many warnings are there alone, and the file to type
+    /// a model from for a program.
+    fn report_line(&self, warnings: usize, program: Option<&str>) -> String {
+        let name = if self.report { "report.html" } else { "parameters.json" };
+        let more = match warnings {
+            0 => String::new(),
+            1 => ", with 1 more warning".into(),
+            more => format!(", with {more} more warnings"),
+        };
+        let typed = program.filter(|_| self.decks);
+        let typed = typed.map(|program| format!("; to type into {program}: decks/{SHEET}"));
+        let rest = more + &typed.unwrap_or_default();
+        let room = WIDTH.saturating_sub(REPORT.len() + rest.chars().count());
+        format!("{REPORT}{}{rest}", self.within(name, room.min(LONGEST_PATH)))
     }
 }
 
@@ -119,16 +144,17 @@ pub fn screen(run: &Run, written: &Written) -> String {
         room(lines) >= if *level == 0 { wanted } else { least } || level + 1 == CROWDING.len()
     };
     let mut lines = answers.enumerate().find(fits).map(|(_, lines)| lines).unwrap_or_default();
-    let name = if written.report { "report.html" } else { "parameters.json" };
-    tell(&warnings, &written.file(name), &mut lines);
-    if written.report {
-        // where warnings are left out, their last line names the report
-        let named = lines.last().is_some_and(|last| last.starts_with(REPORT));
-        if !named {
-            wrap(&mut lines, REPORT, &written.file(name));
-        }
+    let left_out = tell(&warnings, &mut lines);
+    if written.report || left_out > 0 {
+        lines.push(written.report_line(left_out, sheet_of(run)));
     }
     lines.join("\n") + "\n"
+}
+
+/// The file to type from, if there is one.
+fn sheet_of(run: &Run) -> Option<&str> {
+    let program = run.program.as_ref().filter(|program| program.csi && program.usable)?;
+    run.sap2000.then(|| program.short())
 }
 
 /// All but the warnings.
@@ -139,17 +165,39 @@ fn answer(run: &Run, written: &Written, crowding: Crowding) -> Vec<String> {
         lines.push(String::new());
     }
     at_most(crowding.sentence, &mut lines, "", &run.verdict());
-    let beside = |line: &String| !ASIDE.iter().any(|name| line.starts_with(name));
-    let peaks = peak_table(run).into_iter().flat_map(|table| table.lines());
-    lines.extend(peaks.filter(|line| crowding.all_peaks || beside(line)));
+    let peaks = peak_table(run).into_iter().flat_map(|table| friction_beside(table).lines());
+    lines.extend(peaks.filter(|line| crowding.all_peaks || !line.starts_with(IMPACTS)));
     lines.extend(forces::lines(run));
     springs(run, &mut lines);
     if let Some(accuracy) = &run.accuracy {
-        let told = accuracy.short(crowding.measured, run.taken.record.is_some());
-        at_most(crowding.accuracy, &mut lines, "accuracy  ", &told);
+        let parts = accuracy.short(crowding.measured, run.taken.record.is_some());
+        // as many parts as there is room for
+        let told = (1..=parts.len()).rev().map(|shown| {
+            let mut some = Vec::new();
+            wrap(&mut some, "accuracy  ", &parts[..shown].join("; "));
+            some
+        });
+        let fits = |some: &Vec<String>| some.len() <= crowding.accuracy;
+        match told.into_iter().find(fits) {
+            Some(some) => lines.extend(some),
+            None => at_most(crowding.accuracy, &mut lines, "accuracy  ", &parts[0]),
+        }
     }
     next(run, written, crowding, &mut lines);
     lines
+}
+
+/// The table of peaks with the friction needed beside the impacts, which have no difference.
+fn friction_beside(mut table: Table) -> Table {
+    let friction = table.rows.pop_if(|row| row.first().is_some_and(|name| name == FRICTION));
+    let impacts = table.rows.last_mut().filter(|row| row[0].starts_with(IMPACTS));
+    match (friction, impacts) {
+        (Some(friction), Some(impacts)) if table.head.len() > DIFFERENCE => {
+            impacts[DIFFERENCE] = friction[..2].join(" ");
+        }
+        (friction, _) => table.rows.extend(friction),
+    }
+    table
 }
 
 fn taken(run: &Run, written: &Written, most: usize, lines: &mut Vec<String>) {
@@ -242,11 +290,12 @@ fn next(run: &Run, written: &Written, crowding: Crowding, lines: &mut Vec<String
     }
     match &run.program {
         Some(program) => {
-            let sheet = format!("decks/{SHEET}");
-            let typed = written.decks && run.sap2000 && program.csi;
-            // where there is little room the sheet alone has the settings
-            let line = program.line(typed.then_some(&*sheet), both || !typed);
-            at_most(crowding.program, lines, &format!("{:10}", program.short()), &line);
+            let name = format!("{:10}", program.short());
+            at_most(crowding.program, lines, &name, &program.line(crowding.program > 1));
+            let settings = program.settings(crowding.program > 1);
+            if !settings.is_empty() {
+                at_most(2, lines, "  set to  ", &settings);
+            }
             if written.decks && program.deck_of_even_steps {
                 let deck = format!("python3 {}", written.file(&format!("decks/{EVEN_DECK}")));
                 wrap(lines, "its deck  ", &deck);

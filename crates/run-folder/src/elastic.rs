@@ -25,7 +25,7 @@ use report::{
     filed,
     markdown::markdown,
     page::page,
-    summary,
+    predictable_to, summary,
 };
 use springs::{
     case::{Asked, ElasticCase},
@@ -216,6 +216,9 @@ impl ElasticRun {
             Some(design_forces(&run.assembled.structure, &run.answer.design).foretold_to(foretold));
         run.parameters.findings = filed(run.parts().findings(&run.parameters));
         run.parameters.peaks = Some(run.parts().foretold_peaks(&run.parameters.findings));
+        let until = predictable_to(&run.parameters.findings);
+        run.parameters.design_forces =
+            run.parameters.design_forces.map(|forces| forces.foretold_to(until));
         run
     }
 

@@ -32,6 +32,7 @@ pub mod doubts;
 mod elastic;
 mod error;
 mod limits;
+mod located;
 mod missing;
 mod plain_words;
 pub mod program;
@@ -253,6 +254,15 @@ impl Case {
 
 /// [`Case::parse_asking`], the record it names read by `read`.
 pub fn parse_with(
+    path: &str,
+    text: &str,
+    asked: &ReadOptions,
+    read: impl FnOnce(&Path, &ReadOptions) -> Result<Record, RecordError>,
+) -> Result<Case, CaseError> {
+    of_text(path, text, asked, read).map_err(|error| error.located(path, text, asked))
+}
+
+fn of_text(
     path: &str,
     text: &str,
     asked: &ReadOptions,

@@ -17,7 +17,7 @@ use crate::{
 };
 use dynamics::compare::Match;
 use dynamics::fem::{Demands, History, between_landings};
-use frames::design_forces::ForcesTogether;
+use frames::design_forces::{ForcesTogether, HeldForce};
 use rocking::{
     housner::Rocking,
     motion::TimedPeak,
@@ -34,13 +34,15 @@ type ForceRow = [f64; 3];
 
 /// The forces of a run. Where Housner's body cannot tell them, with members or beyond the end of
 /// his solution, they are those of the history on springs, which `softer` follows on springs of a
-/// quarter of Omega_n.
+/// quarter of Omega_n. `foretold_s`: up to when his history can be foretold (s), if that is not its
+/// end.
 pub fn design_forces(
     kind: Kind,
     body: &Body<f64>,
     record: &Record,
     both: &ModelComparison,
     softer: Option<&MemberHistory>,
+    foretold_s: Option<f64>,
 ) -> DesignForces {
     let dt = record.dt;
     let until =
@@ -74,11 +76,13 @@ pub fn design_forces(
                 let change = relative(same, springs[k].value);
                 let row = housner.get((all.time / dt).round() as usize);
                 let together = row.map(|row| row.together(kind, k));
-                DesignForce {
-                    together,
-                    rigid: Some(all.value),
-                    ..DesignForce::measured(all.value, all.time, change)
-                }
+                let found = DesignForce::measured(all.value, all.time, change);
+                let held = foretold_s.filter(|until| found.holds && all.time > *until);
+                let held = held.and_then(|over_s| {
+                    let part = &series[..samples_until(Some(over_s), dt).min(series.len())];
+                    Some(HeldForce { value: TimedPeak::of(dt, part)?.value, over_s })
+                });
+                DesignForce { together, held, rigid: Some(all.value), ..found }
             };
             (force(0), [1, 2, 3].map(force))
         }
@@ -233,7 +237,7 @@ mod tests {
         let springs = Springs { vertical: design, horizontal: design }.chains(structure.mass_kg);
         let body = structure.body();
         let both = both(&body, body.restitution(), &springs, &Members::default(), &record);
-        design_forces(structure.kind, &body, &record, &both, None)
+        design_forces(structure.kind, &body, &record, &both, None, None)
     }
 
     /// Standing under a_g: shear m a_g, axial W; a leg carries a moment of W b/2 at the apex

@@ -106,10 +106,13 @@ impl Excitation {
     /// The same, shorter: without the file's path, the number of samples, and when the peak is.
     pub fn short_line(&self) -> String {
         let from = match &self.record.source {
-            crate::Source::File { units, .. } => format!("in {units}"),
+            crate::Source::File { units, .. } => units.to_string(),
             _ => "embedded".into(),
         };
-        self.told(&from, &format!(", step {} s", self.record.dt), "")
+        let step = format!(", step {} s", self.record.dt);
+        let line = self.told(&from, &step, "");
+        // "first 8 s of 12 s"
+        line.replace(", first ", ", ").replace(" s of ", " of ")
     }
 
     fn told(&self, from: &str, samples: &str, when: &str) -> String {

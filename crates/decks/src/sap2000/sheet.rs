@@ -196,11 +196,12 @@ fn history(parts: &SapModel) -> String {
         (
             "iterations",
             format!(
-                "constant stiffness {}, Newton-Raphson {}; relative tolerance {}; no line search, \
-                 no event stepping",
+                "constant stiffness {}, Newton-Raphson {}; relative tolerance {}{}; no line \
+                 search, no event stepping",
                 settings.constant,
                 settings.newton,
-                short(&settings.tolerance)
+                short(&settings.tolerance),
+                meant(&settings.tolerance)
             ),
         ),
     ] {
@@ -272,4 +273,12 @@ fn notes(parts: &SapModel) -> String {
     }
     let lines: String = all.iter().map(|note| format!("   - {note}\n")).collect();
     format!("Notes.\n{lines}")
+}
+/// That a tolerance which looks like a misprint is none.
+fn meant(tolerance: &str) -> &'static str {
+    const LARGE: f64 = 0.01;
+    match tolerance.parse::<f64>() {
+        Ok(x) if x > LARGE => " (meant so large: with a smaller one such steps lose histories)",
+        _ => "",
+    }
 }

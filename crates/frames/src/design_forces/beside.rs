@@ -42,6 +42,10 @@ pub struct OtherForces {
     pub softer: Option<f64>,
     /// On springs of 4 Omega_n.
     pub stiffer: Option<f64>,
+    /// On the springs of the run, below twice the frequency; absent where there is none. It decides
+    /// nothing: what it has more is of faster waves.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub doubled_cutoff: Option<f64>,
 }
 
 impl OtherForces {

@@ -35,6 +35,11 @@ impl Cutoff {
         let last = *modes_hz.last()?;
         Some(Self { cutoff_hz: ABOVE_THIRD * last, modes_hz })
     }
+
+    /// Twice as high.
+    pub(super) fn doubled(&self) -> Self {
+        Self { cutoff_hz: 2.0 * self.cutoff_hz, modes_hz: self.modes_hz.clone() }
+    }
 }
 
 /// Bending modes of one column fixed at its foot, from the lowest (Hz).

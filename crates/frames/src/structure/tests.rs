@@ -86,7 +86,7 @@ fn what_no_structure_can_be_is_refused_in_one_line() {
         (
             "frequency_hz = 2.0",
             "frequency_hz = 2.0\nei_nm2 = 1e10",
-            "one of ei_nm2 and frequency_hz",
+            "ei_nm2 and frequency_hz are both given",
         ),
         ("frequency_hz = 2.0", "", "one of ei_nm2 and frequency_hz"),
         ("frequency_hz = 2.0", "frequency_hz = 2.0\nea_n = 1e6", "ea_n"),

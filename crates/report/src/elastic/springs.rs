@@ -6,6 +6,7 @@ use super::super::{
 };
 use super::title;
 use files::message::{quantity, significant};
+use frames::peaks::StructurePeakErrors;
 use rocking::members::Tendon;
 use springs::{
     case::{ElasticCase, Yardstick},
@@ -45,7 +46,7 @@ fn accuracy(a: &ElasticAssessment, on_record: Option<&OnRecord>) -> AccuracyRepo
             count: e.count,
             history: finite(e.median[0]),
             peaks: e.peaks.and_then(|peaks| finite(peaks.largest[0])),
-            worst: e.peaks.map(|peaks| peaks.median.worst()),
+            worst: e.peaks.map(|peaks| worst(&peaks.median)),
             history_allowed: of_history,
             peaks_allowed: of_peaks,
         })
@@ -63,6 +64,16 @@ fn accuracy(a: &ElasticAssessment, on_record: Option<&OnRecord>) -> AccuracyRepo
         peaks_asked: of_peaks,
         reached: a.reached,
         measured: all.into_iter().flatten().collect(),
+    }
+}
+
+/// Which peak errs most, and whether forces are among them.
+fn worst(of: &StructurePeakErrors) -> &'static str {
+    match (of.worst(), of.design_forces) {
+        ("displacement", None) => "displacement, forces aside",
+        ("bending", None) => "bending, forces aside",
+        ("uplift", None) => "uplift, forces aside",
+        (worst, _) => worst,
     }
 }
 

@@ -9,7 +9,7 @@ use dynamics::{
     spring::ChainRow,
 };
 use files::message::{percent, quantity, significant};
-use rocking::motion::shown;
+use rocking::{motion::shown, structure::Kind};
 use springs::{
     parameters::{PaperProcedure, Parameters},
     tuning::landing_simulation::report::LandingRow,
@@ -180,8 +180,9 @@ pub(crate) fn stiffness(front: &[TradeoffPoint]) -> Table {
     .with(front.iter().map(row))
 }
 
-/// Largest forces of the finite elements, between landings and in them.
-pub(crate) fn finite_element_forces(columns: &[(&str, &Demands)]) -> Table {
+/// Largest forces of the finite elements, between landings and in them; those of legs are an
+/// A-frame's.
+pub(crate) fn finite_element_forces(kind: Kind, columns: &[(&str, &Demands)]) -> Table {
     let mut head = vec!["finite elements, largest".to_string()];
     for (name, _) in columns {
         head.extend([format!("{name}between landings"), format!("{name}in landings")]);
@@ -191,6 +192,10 @@ pub(crate) fn finite_element_forces(columns: &[(&str, &Demands)]) -> Table {
             .iter()
             .flat_map(|(_, demands)| [demands.between[k], demands.peaks[k]])
             .collect();
+        let of_leg = ["axial", "shear", "moment"].iter().any(|force| name.starts_with(force));
+        if kind == Kind::Block && of_leg {
+            return None;
+        }
         let (what, unit) = name.rsplit_once('_')?;
         let unit = if unit == "nm" { "N m" } else { "N" };
         let cell = |peak: &rocking::motion::TimedPeak| match peak.value {

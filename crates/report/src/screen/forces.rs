@@ -40,9 +40,12 @@ pub(super) fn lines(run: &Run) -> Vec<String> {
         true => Some("of this one motion: design by many".to_string()),
         false => some.then(|| format!("{mark} not predictable").trim_start().to_string()),
     };
+    let alone = run.peaks.and_then(|pair| pair.reference_ends_s);
+    let alone = alone.map(|end| format!("alone from {} s", significant(end, 3)));
     let rest = forces.all().any(|(_, force)| force.is_at_rest());
     let rest = rest.then(|| "own weight: no thrust".to_string());
-    let notes: Vec<String> = changes(run, forces).into_iter().chain(doubt).chain(rest).collect();
+    let notes: Vec<String> =
+        changes(run, forces).into_iter().chain(alone).chain(doubt).chain(rest).collect();
     let notes = if notes.is_empty() { String::new() } else { format!(" ({})", notes.join("; ")) };
     let mut lines = Vec::new();
     let head = format!("design forces{}{notes}", which(run, forces));
@@ -59,8 +62,16 @@ pub(super) fn lines(run: &Run) -> Vec<String> {
         };
         all.iter().map(cell).collect()
     };
+    // an odd one has a line of its own, which is the first: the moment's
+    let lone = all.len() % 2;
+    let first = |told: Told| {
+        cells(told).into_iter().take(lone).map(|cell| format!("  {}", cell.join("  ")))
+    };
     let rows = [Told::Both, Told::Axial, Told::Time, Told::Value];
-    let rows = rows.into_iter().find_map(|told| in_pairs(&cells(told)));
+    let rows = rows.into_iter().find_map(|told| {
+        let pairs = in_pairs(&cells(told)[lone..])?;
+        Some(first(Told::Both).chain(pairs).collect::<Vec<_>>())
+    });
     let one_each =
         || cells(Told::Both).iter().map(|cell| format!("  {}", cell.join("  "))).collect();
     lines.extend(rows.unwrap_or_else(one_each));
@@ -143,7 +154,10 @@ fn value(name: ForceName, force: &DesignForce, mark: &str, told: Told) -> String
     let axial =
         axial.filter(|_| matches!(told, Told::Both | Told::Axial)).map(|together| together.axial_n);
     let axial = axial.map_or(String::new(), |axial| format!(", axial {}", quantity(axial, "N")));
-    format!("{}{mark}{when}{up}{axial}", newtons(largest))
+    // what it is before that, where it is largest later
+    let until = force.held.filter(|_| matches!(told, Told::Both | Told::Axial));
+    let until = until.map_or(String::new(), |_| held_words(name, force));
+    format!("{}{mark}{when}{up}{axial}{until}", newtons(largest))
 }
 
 /// Two cells to a line, names and values below each other; none if a line would be too long.

@@ -1,7 +1,7 @@
 //! Warnings at the end of the screen, in the room that is left.
 
 use super::{
-    LINES, REPORT,
+    LINES,
     lines::{at_most, wrap},
 };
 use crate::{Run, sentence};
@@ -123,8 +123,8 @@ pub(super) fn warning_lines(warning: &Warned) -> usize {
 }
 
 /// Warnings in the room that is left, the last line for the report: each has one line before any
-/// has a second.
-pub(super) fn tell(warnings: &[Warned], place: &str, lines: &mut Vec<String>) {
+/// has a second. Returns how many are left out.
+pub(super) fn tell(warnings: &[Warned], lines: &mut Vec<String>) -> usize {
     let room = (LINES - 1).saturating_sub(lines.len());
     let mut left = room;
     // what each needs, as far as there is room: those whose numbers are not to be cut need all
@@ -147,18 +147,14 @@ pub(super) fn tell(warnings: &[Warned], place: &str, lines: &mut Vec<String>) {
     for (most, warning) in given.into_iter().zip(warnings) {
         lines.extend(warning.in_lines(most));
     }
-    if told < warnings.len() && lines.len() < LINES {
-        let more = warnings.len() - told;
-        let plural = if more == 1 { "" } else { "s" };
-        lines.push(format!("{REPORT}{place}, with {more} more warning{plural}"));
-    }
+    warnings.len() - told
 }
 
 #[cfg(test)]
 mod tests {
     use super::{super::WIDTH, *};
 
-    fn told(warnings: &[usize], taken: usize) -> Vec<String> {
+    fn told(warnings: &[usize], taken: usize) -> (Vec<String>, usize) {
         let warned = |n: &usize| Warned {
             whole: false,
             name: WARNING,
@@ -167,8 +163,8 @@ mod tests {
         };
         let all: Vec<Warned> = warnings.iter().map(warned).collect();
         let mut lines = vec![String::from("x"); taken];
-        tell(&all, "report.html", &mut lines);
-        lines.split_off(taken)
+        let left_out = tell(&all, &mut lines);
+        (lines.split_off(taken), left_out)
     }
 
     #[test]
@@ -199,14 +195,13 @@ mod tests {
     #[test]
     fn each_warning_has_one_line_before_any_has_a_second() {
         let starts = |lines: &[String]| lines.iter().filter(|l| l.starts_with(WARNING)).count();
-        let all = told(&[3, 2, 1], 20);
-        assert_eq!((all.len(), starts(&all)), (6, 3));
-        let some = told(&[3, 2, 1], LINES - 5);
+        let (all, left_out) = told(&[3, 2, 1], 20);
+        assert_eq!((all.len(), starts(&all), left_out), (6, 3, 0));
+        let (some, _) = told(&[3, 2, 1], LINES - 5);
         assert_eq!((some.len(), starts(&some)), (4, 3));
         assert!(some[1].starts_with(' ') && some[1].ends_with("...") && some[2].ends_with("..."));
-        let few = told(&[3, 2, 1], LINES - 2);
-        assert_eq!(few.len(), 2);
-        assert_eq!(few[1], format!("{REPORT}report.html, with 2 more warnings"));
-        assert!(told(&[1], LINES).is_empty());
+        let (few, left_out) = told(&[3, 2, 1], LINES - 2);
+        assert_eq!((few.len(), left_out), (1, 2));
+        assert_eq!(told(&[1], LINES), (Vec::new(), 1));
     }
 }

@@ -116,13 +116,15 @@ impl ElasticCase {
     }
 }
 
-/// Gravity moments and a vertical motion that are left out come first: a screen may have no room
-/// for all.
+/// Gravity moments that are left out, a column's EA and a vertical motion that is left out come
+/// first: a screen may have no room for all.
 fn first_what_weighs_most(mut all: Vec<Assumption>) -> Vec<Assumption> {
     all.sort_by_key(|assumption| match assumption.quantity {
         AssumedQuantity::BeamMassAtJoints => 0,
-        AssumedQuantity::NoVertical => 1,
-        _ => 2,
+        // axial forces hang on it
+        AssumedQuantity::AxialStiffness => 1,
+        AssumedQuantity::NoVertical => 2,
+        _ => 3,
     });
     all
 }

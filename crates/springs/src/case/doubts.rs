@@ -40,6 +40,8 @@ pub enum Doubt {
     VerticalLeftOut { peak_g: f64, horizontal_g: f64 },
     /// A vertical component is taken as the horizontal motion.
     VerticalTaken { component: String },
+    /// A scale below zero reverses the vertical motion, too.
+    Reversed { scale: f64 },
     /// More of the record is asked for than there is.
     LongDuration { asked_s: f64, record_s: f64 },
 }
@@ -216,7 +218,10 @@ pub(crate) fn of_excitation(excitation: &Excitation) -> Vec<Doubt> {
         _ => None,
     };
     let only = only.map(|component| Doubt::VerticalTaken { component });
-    only.into_iter().chain(weak).chain(strong).chain(long).chain(vertical).collect()
+    let scale = excitation.scale;
+    let reversed = (scale < 0.0 && record.vertical.is_some()).then_some(Doubt::Reversed { scale });
+    let of_peaks = weak.into_iter().chain(strong);
+    only.into_iter().chain(of_peaks).chain(reversed).chain(long).chain(vertical).collect()
 }
 
 impl Doubt {
@@ -239,11 +244,8 @@ impl Doubt {
                 )
             }
             Self::Tonnes { mass, kg_per_m3 } => {
-                format!(
-                    "mass_kg = {} makes a block of {} kg/m3, as deep as wide",
-                    figures(*mass),
-                    figures(*kg_per_m3)
-                )
+                let [mass, density] = [*mass, *kg_per_m3].map(figures);
+                format!("mass_kg = {mass} makes a block of {density} kg/m3, as deep as wide")
             }
             Self::WeakMotion { pga_g, least_g, whole_g } => {
                 let whole = if whole_g >= least_g {
@@ -281,15 +283,17 @@ impl Doubt {
                 )
             }
             Self::HeavyColumn { column_kg, mass_kg } => {
-                format!(
-                    "columns of {} kg stand under {} kg",
-                    figures(*column_kg),
-                    figures(*mass_kg)
-                )
+                let [column, mass] = [*column_kg, *mass_kg].map(figures);
+                format!("columns of {column} kg stand under {mass} kg")
             }
             Self::VerticalTaken { component } => {
                 format!("component {component}, a vertical one, is taken as the horizontal motion")
             }
+            Self::Reversed { scale } => format!(
+                "scale {} reverses the vertical motion, too (the horizontal one alone would change \
+                    nothing)",
+                figures(*scale)
+            ),
             Self::LongDuration { asked_s, record_s } => {
                 format!(
                     "{} s are asked for, the record has {} s; all of it is used",
@@ -327,6 +331,9 @@ impl Doubt {
             Self::HeavyColumn { .. } => "check the masses (kg) and their units".to_owned(),
             Self::VerticalTaken { .. } => {
                 "choose a horizontal one (--component), or a file that has one".to_owned()
+            }
+            Self::Reversed { scale } => {
+                format!("for the motion as recorded write scale = {}", figures(-scale))
             }
             Self::LongDuration { .. } => {
                 "leave the duration out, or give a longer record".to_owned()

@@ -112,6 +112,10 @@ impl ElasticCase {
     /// # Errors
     /// What is wrong with the file, the structure, the record.
     pub fn parse_asking(path: &str, text: &str, asked: &ReadOptions) -> Result<Self, CaseError> {
+        Self::of_text(path, text, asked).map_err(|error| error.located(path, text, asked))
+    }
+
+    fn of_text(path: &str, text: &str, asked: &ReadOptions) -> Result<Self, CaseError> {
         let file: ElasticFile = toml::from_str(text).map_err(|e| case_error(path, text, &e))?;
         missing::none(path, text)?;
         let of_elastic = |source| CaseError::Elastic { path: path.into(), source };

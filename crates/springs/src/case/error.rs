@@ -61,6 +61,10 @@ pub enum CaseError {
     TwoYardsticks { path: String, peaks: String, accuracy: String },
     #[error(transparent)]
     Record(#[from] RecordError),
+    #[error("{path}: {message}")]
+    OfRecord { path: String, message: String },
+    #[error("{path}: not a text file; give a case file (TOML): `tune init` writes one")]
+    NotText { path: String },
 }
 
 /// The text of a case file.
@@ -74,9 +78,7 @@ pub fn text_of(path: &Path) -> Result<String, CaseError> {
         let text = String::from_utf8_lossy(bytes.as_bytes());
         match RecordFormat::recognised(&text) {
             Some(format) => CaseError::IsRecord { path: name.clone(), format },
-            None => {
-                read(std::io::Error::new(std::io::ErrorKind::InvalidData, "it is not valid UTF-8"))
-            }
+            None => CaseError::NotText { path: name.clone() },
         }
     })
 }

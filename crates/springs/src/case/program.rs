@@ -143,7 +143,7 @@ mod tests {
             ("substeps = 0", "program.substeps is 0; give a number from 1"),
         ] {
             let error = read(&format!("[program]\n{wrong}\n")).unwrap_err().to_string();
-            assert!(error.starts_with("c.toml: ") && error.contains(told), "{error}");
+            assert!(error.starts_with("c.toml, line ") && error.contains(told), "{error}");
         }
     }
 }

@@ -82,7 +82,7 @@ mod tests {
         );
         let said = read("peaks = 0.0").unwrap_err().to_string();
         assert!(
-            said.starts_with("c.toml: tuning.peaks is 0.0; give an error of peaks between"),
+            said.starts_with("c.toml, line 7: tuning.peaks is 0.0; give an error of peaks between"),
             "{said}"
         );
     }

@@ -102,6 +102,8 @@ pub enum Finding {
     IllConditioned {
         moved_by_width: f64,
         moved_by_scale: f64,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        moved_by_restitution: Option<f64>,
         /// Up to when no change of 0.1 %, of width, scale or restitution, moves it by a twentieth
         /// of its peak (s); none: to its end.
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -262,6 +264,9 @@ pub enum Finding {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         overturns_s: Option<f64>,
         changes: Vec<PeakChange>,
+        /// Whether forces are measured to be the structure's, as design forces are.
+        #[serde(default)]
+        checked: bool,
     },
     // what was taken
     // a filed finding has a message and a remedy already

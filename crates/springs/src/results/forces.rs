@@ -54,8 +54,7 @@ pub struct DesignForce {
     /// What it is over the whole record then.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub whole_record: Option<OtherForces>,
-    /// Of a force that is larger later and does not hold there: what it is, and holds, over the
-    /// part of the record that can be foretold.
+    /// Of a force that is larger after what can be foretold: what it is, and holds, up to then.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub held: Option<HeldForce>,
     /// Whether the motion can be foretold up to `time_s`.
@@ -103,6 +102,7 @@ impl DesignForce {
             doubled_elements: by(others.doubled_elements),
             softer: by(others.softer),
             stiffer: by(others.stiffer),
+            doubled_cutoff: by(others.doubled_cutoff),
         };
         let (others, whole_record) = (self.others.map(all), self.whole_record.map(all));
         let held = self.held.map(|held| HeldForce { value: held.value * length, ..held });
@@ -234,6 +234,8 @@ mod tests {
             doubled_elements: Some(2.02),
             softer: Some(-1.9),
             stiffer: Some(2.06),
+            // of another frequency: no change of the same force
+            doubled_cutoff: Some(-3.0),
         };
         assert!((others.change() - 0.05).abs() < 1e-12);
         assert!((OtherForces { softer: Some(2.0), ..others }.change() - 0.03).abs() < 1e-12);

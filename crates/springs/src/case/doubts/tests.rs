@@ -110,6 +110,21 @@ fn motions_that_nobody_feels_or_that_end_early_are_doubted() {
 }
 
 #[test]
+fn a_scale_that_turns_the_vertical_motion_upside_down_is_doubted() {
+    let up = Record::new("up", 0.01, vec![0.0, 0.1, -0.1, 0.0]).unwrap();
+    let record = Record::new("a", 0.01, vec![0.0, 0.4, -0.2, 0.3]).unwrap();
+    let with = |record: &Record, scale| {
+        of_excitation(&Excitation { scale, ..Excitation::whole(record.clone()) })
+    };
+    assert_eq!(with(&record, -0.5), []);
+    let record = record.with_vertical(up).unwrap();
+    assert_eq!(with(&record, 0.5), []);
+    let doubts = with(&record, -0.5);
+    assert_eq!(doubts, [Doubt::Reversed { scale: -0.5 }]);
+    assert_eq!(doubts[0].remedy(), "for the motion as recorded write scale = 0.5");
+}
+
+#[test]
 fn the_cases_of_the_folder_are_beyond_doubt() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tuning");
     for path in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {

@@ -24,12 +24,12 @@ impl Finding {
             Self::ModelsDisagree { .. } => {
                 "vary the scale by 1 %, and judge by many records: tune validate"
             }
-            Self::PivotLeavesGround { .. } => "compare up to that time only",
-            Self::IllConditioned { .. } => "take many records: tune sweep",
+            Self::PivotLeavesGround { .. } => "compare up to then",
+            Self::IllConditioned { .. } => "judge by many: tune init sweep",
             Self::ForetoldUpTo { later_forces, .. } | Self::SlidesOn { later_forces, .. }
                 if !later_forces.is_empty() =>
             {
-                "design with several records"
+                "design by several records"
             }
             Self::ForetoldUpTo { softer_hz, .. } | Self::SlidesOn { softer_hz, .. } => {
                 let hz = (*softer_hz)?;
@@ -59,9 +59,7 @@ impl Finding {
             Self::ForceWithheld { housner: Some(_), .. } => {
                 "design for the larger, or take stiffer springs: --accuracy"
             }
-            Self::ForceWithheld { .. } => {
-                "take it from a model of your own, or refine: elements, --accuracy"
-            }
+            Self::ForceWithheld { .. } => "refine: elements, --accuracy",
             Self::SearchCut { .. }
             | Self::HistoriesUnfinished { .. }
             | Self::NearMotionsLeftOut { .. } => return self.remedy_of_search(),
@@ -89,7 +87,7 @@ impl Finding {
                 return Some(format!("give --step {longest_s:.1e} or less"));
             }
             Self::ProgramLoses { csi: true, .. } => {
-                "check that its history ends; else try another --step: shorter is not always better"
+                "check that its history ends; else another --step, longer ones too"
             }
             Self::ProgramLoses { .. } => {
                 "check that its history ends; else another --step, or --integrator backward-euler"
@@ -178,7 +176,8 @@ impl Finding {
             }
             Self::ForceWithheld { .. } => {
                 "A force that grows with the springs or the mesh is the model's, not the \
-                    structure's."
+                    structure's. Where a finer model does not settle it, take it from another kind \
+                    of model."
             }
             _ => return None,
         })

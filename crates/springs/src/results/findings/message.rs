@@ -37,12 +37,12 @@ fn listed(forces: &[ForceName]) -> String {
     }
 }
 
-/// Design forces whose largest value comes after what can be predicted, which ends there (s).
-fn later(forces: &[ForceName], time: f64) -> String {
+/// Design forces whose largest value comes after what can be predicted.
+fn later(forces: &[ForceName]) -> String {
     match forces.len() {
         0 => String::new(),
-        1 => format!("{} is largest after {}, unpredictable: ", listed(forces), s(time)),
-        _ => format!("{} are largest after {}, unpredictable: ", listed(forces), s(time)),
+        1 => format!("{} comes after what can be predicted: ", listed(forces)),
+        _ => format!("{} come after what can be predicted: ", listed(forces)),
     }
 }
 
@@ -151,11 +151,7 @@ impl Finding {
                 )
             }
             Self::PivotLeavesGround { time_s } => {
-                format!(
-                    "the pivot of Housner's body leaves the ground at t = {}, where his solution \
-                        ends",
-                    s(*time_s)
-                )
+                format!("Housner's pivot leaves the ground at {} and his solution ends", s(*time_s))
             }
             Self::WithoutVertical { does, share_of_overturning } => format!(
                 "without the vertical component it {does}; its largest rotation is {} of \
@@ -169,35 +165,38 @@ impl Finding {
     /// What a comparison one to one is worth.
     fn comparison(&self) -> String {
         match self {
-            Self::IllConditioned { moved_by_width, holds_to_s, springs_judged, .. } => {
-                let judged = if *springs_judged {
-                    "; the springs were judged on synthetic motions"
-                } else {
-                    ""
+            // up to when it can be predicted the verdict tells, on what springs were judged the
+            // accuracy
+            Self::IllConditioned {
+                moved_by_width,
+                moved_by_scale,
+                moved_by_restitution,
+                holds_to_s,
+                ..
+            } => {
+                let by = [
+                    ("width", *moved_by_width),
+                    ("scale", *moved_by_scale),
+                    ("restitution", moved_by_restitution.unwrap_or(0.0)),
+                ];
+                let (what, most) = by
+                    .into_iter()
+                    .fold(by[0], |most, other| if other.1 > most.1 { other } else { most });
+                let nowhere = match holds_to_s {
+                    Some(_) => "",
+                    None => ", but nowhere by a twentieth of its peak",
                 };
-                let moved = percent(*moved_by_width);
-                match holds_to_s {
-                    Some(time) => format!(
-                        "ill-conditioned: 0.1 % more width moves the history by {moved}, and no \
-                            model predicts it after {}{judged}",
-                        s(*time)
-                    ),
-                    None => format!(
-                        "ill-conditioned: 0.1 % more width moves the history by {moved}, but no \
-                            change of 0.1 % by a twentieth of its peak{judged}"
-                    ),
-                }
+                let most = percent(most);
+                format!("ill-conditioned: 0.1 % of {what} moves it by {most}{nowhere}")
             }
             Self::ForetoldUpTo { time_s, later_forces, .. } => format!(
-                "{}a change of a millionth grows above a thousandth of the peak after t = {}: no \
-                    model predicts what follows",
-                later(later_forces, *time_s),
+                "{}after t = {} a change of a millionth grows above a thousandth of the peak",
+                later(later_forces),
                 s(*time_s)
             ),
             Self::SlidesOn { time_s, later_forces, .. } => format!(
-                "{}a corner slides as it lands at t = {}: how far depends on friction, so no model \
-                    predicts what follows",
-                later(later_forces, *time_s),
+                "{}a corner slides as it lands at t = {}: how far depends on friction",
+                later(later_forces),
                 s(*time_s)
             ),
             Self::NearMotions { motions, change, median_ratio, p90_ratio, overturned } => {
@@ -270,9 +269,9 @@ impl Finding {
             }
             Self::ForceWithheld { force, change, .. } => {
                 let by = change.map_or("could not be checked".into(), |change| {
-                    format!("changes by {}", percent(change))
+                    format!("varies {}", percent(change))
                 });
-                format!("{} is withheld: it {by} with the springs or the mesh", force.words())
+                format!("{} is withheld: {by} with springs or mesh", force.words())
             }
             Self::ForcesHeldInPart { over_s, changes } => {
                 let later =
@@ -353,7 +352,7 @@ impl Finding {
                 format!("{histories} {of} of the search met the bound on a history's steps: {then}")
             }
             Self::NearMotionsLeftOut { all: true, .. } => {
-                "motions near the record are left out: those tried met the bound on steps".into()
+                "motions near the record are left out: beyond a bound on steps".into()
             }
             Self::NearMotionsLeftOut { motions, .. } => {
                 format!(

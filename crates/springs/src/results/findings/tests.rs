@@ -68,9 +68,9 @@ fn a_force_that_comes_after_what_can_be_foretold_makes_a_warning_of_it() {
     assert_eq!((of(Vec::new()).weight(), of(Vec::new()).remedy()), (Weight::Note, None));
     let two = of(vec![ForceName::ColumnShear, ForceName::Axial]);
     assert_eq!(two.weight(), Weight::Warning);
-    let said = "column shear and axial force are largest after 9 s, unpredictable: ";
+    let said = "column shear and axial force come after what can be predicted: ";
     assert!(two.message().starts_with(said), "{}", two.message());
-    assert!(two.remedy().unwrap().starts_with("design with several records"));
+    assert!(two.remedy().unwrap().starts_with("design by several records"));
 }
 
 #[test]
@@ -92,9 +92,47 @@ fn what_was_left_out_is_told_with_what_it_would_change() {
         horizontal_g: 0.99,
         overturns_s: None,
         changes,
+        checked: true,
+    };
+    let left_out = "vertical motion (1.84 g) left out; with it";
+    assert_eq!(finding.message(), format!("{left_out}: moment at column base 20.9 MN m"));
+    // the axial force in any case, of forces that were not measured to be the structure's
+    let changes = vec![
+        change("axial force", 30e6, 35.6e6),
+        change("moment at column base", 10.8e6, 20.9e6),
+        change("tension", 1.4e6, 7.4e6),
+        change("column shear", 1.0e6, 1.1e6),
+    ];
+    let finding = Finding::VerticalLeftOut {
+        vertical_g: 1.84,
+        horizontal_g: 0.99,
+        overturns_s: None,
+        changes,
+        checked: false,
     };
     assert_eq!(
         finding.message(),
-        "with the vertical motion that is left out (1.84 g): moment at column base 20.9 MN m"
+        format!(
+            "{left_out} (unchecked): tension 7.4 MN m, moment at column base 20.9 MN m, axial \
+                force 35.6 MN m"
+        )
     );
+}
+
+/// The largest of what moves it is named, whichever it is.
+#[test]
+fn what_moves_an_ill_conditioned_motion_the_most_is_told() {
+    let of = |moved_by_restitution| Finding::IllConditioned {
+        moved_by_width: 0.00974,
+        moved_by_scale: 0.004,
+        moved_by_restitution,
+        holds_to_s: Some(20.0),
+        springs_judged: true,
+    };
+    assert_eq!(
+        of(Some(0.593)).message(),
+        "ill-conditioned: 0.1 % of restitution moves it by 59.3 %"
+    );
+    // of files that were written before it was told
+    assert_eq!(of(None).message(), "ill-conditioned: 0.1 % of width moves it by 0.974 %");
 }

@@ -3,8 +3,8 @@
 use crate::results::findings::{DeckEnd, Finding, ForceName, PeakChange};
 use files::message::{percent, quantity, significant};
 
-/// Quantities that a vertical motion left out changes the most, said in its message; all are in
-/// parameters.json.
+/// Quantities that a vertical motion left out changes the most, said in its message beside the
+/// displacement and the axial force; all are in parameters.json.
 const CHANGES_SAID: usize = 2;
 /// Share below which a quantity is said not to change.
 const LEAST_CHANGE: f64 = 0.01;
@@ -18,7 +18,7 @@ impl Finding {
                 significant(*vertical_g, 3),
                 significant(*time, 4)
             ),
-            Self::VerticalLeftOut { vertical_g, horizontal_g, changes, .. } => {
+            Self::VerticalLeftOut { vertical_g, horizontal_g, changes, checked, .. } => {
                 // what grows the most first; the displacement, and the axial force, which a
                 // section is designed by, in any case
                 let ratio = |c: &PeakChange| c.with / c.without;
@@ -27,13 +27,18 @@ impl Finding {
                 all.sort_by(|a, b| ratio(b).total_cmp(&ratio(a)));
                 let always =
                     |c: &PeakChange| c.unit == "m" || c.quantity == ForceName::Axial.words();
-                let said = all.iter().enumerate();
-                let said = said.filter(|(i, c)| *i < CHANGES_SAID || always(c)).map(|(_, c)| c);
+                let most = |c: &PeakChange| match c.unit.as_str() {
+                    "" => significant(c.with, 3),
+                    unit => quantity(c.with, unit),
+                };
+                let most_of_all: Vec<&PeakChange> =
+                    all.iter().filter(|c| !always(c)).take(CHANGES_SAID).copied().collect();
+                let said = all.iter().filter(|c| always(c) || most_of_all.contains(c));
                 let changes_it = |c: &PeakChange| (ratio(c) - 1.0).abs() > LEAST_CHANGE;
                 let said = said.filter(|c| changes_it(c));
-                let name = |c: &PeakChange| c.quantity.split(',').next().map(str::to_owned);
-                let words =
-                    |c: &&PeakChange| Some(format!("{} {}", name(c)?, quantity(c.with, &c.unit)));
+                let short = |name: &str| name.replace("top displacement", "top");
+                let name = |c: &PeakChange| c.quantity.split(',').next().map(short);
+                let words = |c: &&PeakChange| Some(format!("{} {}", name(c)?, most(c)));
                 let changed: Vec<String> = said.filter_map(words).collect();
                 let [vertical, across] = [vertical_g, horizontal_g].map(|g| significant(*g, 3));
                 let left_out =
@@ -46,7 +51,8 @@ impl Finding {
                         percent(LEAST_CHANGE)
                     ),
                     false => format!(
-                        "with the vertical motion that is left out ({vertical} g): {}",
+                        "vertical motion ({vertical} g) left out; with it{}: {}",
+                        if *checked { "" } else { " (unchecked)" },
                         changed.join(", ")
                     ),
                 }
@@ -57,7 +63,7 @@ impl Finding {
                     DeckEnd::Record => "",
                     DeckEnd::History => ": then it falls over, or the history ends",
                     DeckEnd::Foretold => {
-                        ": from then on changes of 1e-5 decide, and no two programs agree"
+                        ": from then on differences of 1e-5, as between two programs, show"
                     }
                     DeckEnd::Flight => ": then the ground falls faster than the body",
                     DeckEnd::Slides => ": then a corner slides on, and friction decides",
