@@ -1,7 +1,10 @@
 """Puts docs/groundspring.html together, or tells whether it is of the sources that are there.
 
-    page.py build PAGE GLUE.js PROGRAM.wasm.gz
+    page.py pack GLUE.js PROGRAM.wasm PACKED
+    page.py build PAGE GLUE.js PACKED.gz
     page.py check PAGE
+
+What is packed: the worker's script (the glue of wasm-bindgen, and worker.js), then the program.
 """
 
 import hashlib
@@ -41,7 +44,7 @@ def fingerprint():
 
 
 def base91(data):
-    """Two letters to 13 or 14 bits (basE91), lines of 1000 letters, after the number of bytes."""
+    """Two letters to 13 or 14 bits (basE91), lines of 1000 letters."""
     letters, bits, count = [], 0, 0
     for byte in data:
         bits |= byte << count
@@ -59,7 +62,7 @@ def base91(data):
         letters += [ALPHABET[low], ALPHABET[high]]
     text = "".join(letters)
     lines = [text[i : i + 1000] for i in range(0, len(text), 1000)]
-    return "\n".join([str(len(data)), *lines])
+    return "\n".join(lines)
 
 
 def dense(text):
@@ -68,14 +71,23 @@ def dense(text):
     return "\n".join(line for line in lines if line and not line.startswith("//"))
 
 
-def build(page, glue, wasm):
+def worker(glue):
+    """The worker's script."""
+    return dense(Path(glue).read_text() + "\n" + (FOLDER / "worker.js").read_text()).encode()
+
+
+def pack(glue, wasm, packed):
+    Path(packed).write_bytes(worker(glue) + Path(wasm).read_bytes())
+
+
+def build(page, glue, packed):
+    data = Path(packed).read_bytes()
     script = dense("\n".join((FOLDER / name).read_text() for name in SCRIPTS))
     parts = {
         "/*STYLE*/": dense((FOLDER / "style.css").read_text()),
         "/*HASH*/": fingerprint(),
-        "/*GLUE*/": dense(Path(glue).read_text()),
-        "/*WORKER*/": dense((FOLDER / "worker.js").read_text()),
-        "/*WASM*/": base91(Path(wasm).read_bytes()),
+        # bytes that are packed, bytes of the script, letters
+        "/*PROGRAM*/": f"{len(data)}\n{len(worker(glue))}\n{base91(data)}",
         "/*SCRIPT*/": f'"use strict";\n{script}',
     }
     text = (FOLDER / "index.html").read_text()
@@ -100,4 +112,4 @@ def check(page):
 
 
 if __name__ == "__main__":
-    {"build": build, "check": check}[sys.argv[1]](*sys.argv[2:])
+    {"pack": pack, "build": build, "check": check}[sys.argv[1]](*sys.argv[2:])

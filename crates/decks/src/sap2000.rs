@@ -30,7 +30,6 @@ use links::links;
 pub(super) use parts::SapModel;
 use parts::{Bar, FootJoints, SapSection};
 pub(super) use sheet::sheet;
-use springs::parameters::program::not_to_be_used;
 
 /// N to KN, and kg to KN s2/m.
 const KILO: f64 = 1e-3;
@@ -73,10 +72,10 @@ $     springs that were tuned for steps that follow touches are not for its step
 pub(super) fn tables(parts: &SapModel) -> String {
     let steps = if parts.even.is_some() { FOR_ITS_STEPS } else { NOT_FOR_ITS_STEPS };
     let notes = NOTES.replace("@STEPS@", steps);
-    let lost = parts.even.and_then(|even| even.lost);
-    let lost = lost.map_or(String::new(), |lost| format!("$ {}.\n", not_to_be_used(lost)));
+    let why = parts.even.and_then(|even| even.not_to_be_used);
+    let why = why.map_or(String::new(), |why| format!("$ {why}.\n"));
     let (title, of_model) = (&parts.title, &parts.notes);
-    let mut text = format!("$ {title}\n{lost}{notes}{of_model}{}\n", parts.expected());
+    let mut text = format!("$ {title}\n{why}{notes}{of_model}{}\n", parts.expected());
     for table in
         [control(), geometry(parts), links(parts), loads(parts), cases(parts), record(parts)]
             .into_iter()

@@ -18,7 +18,7 @@ use rocking::{motion::Motion, scalar::GRAVITY};
 use springs::{
     parameters::{
         Parameters,
-        program::{CornerUnits, ProgramRow, ProgramTest},
+        program::{CornerUnits, NotToBeUsed, ProgramRow, ProgramTest},
     },
     tuning::fixed_steps::design,
 };
@@ -76,8 +76,8 @@ pub(crate) struct EvenSteps {
     pub unbalance: Option<f64>,
     /// Whether the mass has some rotational inertia because such steps need it.
     pub adds_inertia: bool,
-    /// Of the motions that the run tried, those that the program loses, if that is half or more.
-    pub lost: Option<(usize, usize)>,
+    /// Whether the springs are of no use in such steps, and why.
+    pub not_to_be_used: Option<NotToBeUsed>,
 }
 
 impl EvenSteps {
@@ -98,7 +98,7 @@ impl EvenSteps {
             newton: row.newton_iterations,
             unbalance,
             adds_inertia: false,
-            lost: row.mostly_lost(),
+            not_to_be_used: row.not_to_be_used(),
         })
     }
 

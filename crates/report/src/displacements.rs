@@ -12,20 +12,28 @@ type PeakRow =
 pub(crate) const FRICTION: &str = "friction needed";
 /// The column of differences.
 pub(crate) const DIFFERENCE: usize = 3;
-/// The row of what feet move.
-const MOVED: &str = "  feet moved";
+/// The row of what feet have moved when the top's displacement is largest.
+const MOVED: &str = "  of it feet moved";
+/// What rows of parts that are largest at times of their own begin with.
+pub(crate) const LARGEST: &str = "largest by";
 /// Share of the top's displacement below which it is not said.
 const NOT_SAID: f64 = 0.02;
 
-const ROWS: [PeakRow; 7] = [
-    ("top displacement", |p| Some(p.top_displacement_m), meters, |t| Some(t.top_displacement_s)),
-    ("  by rocking", |p| p.bending_m.map(|_| p.rocking_m), meters, |t| Some(t.rocking_s)),
-    ("  by bending", |p| p.bending_m, meters, |t| t.bending_s),
-    (MOVED, |p| p.feet_moved_m, meters, |_| None),
-    ("  drift ratio", |p| Some(p.drift_ratio), percents, |t| Some(t.top_displacement_s)),
+const ROWS: [PeakRow; 9] = [
+    ("top displacement", |p| Some(p.top_displacement_m), meters, at_top),
+    ("  of it by rocking", |p| Some(p.then?.rocking_m), meters, at_top),
+    ("  of it by bending", |p| Some(p.then?.bending_m), meters, at_top),
+    (MOVED, |p| Some(p.then?.feet_moved_m), meters, at_top),
+    ("  drift ratio", |p| Some(p.drift_ratio), percents, at_top),
+    ("largest by rocking", |p| p.bending_m.map(|_| p.rocking_m), meters, |t| Some(t.rocking_s)),
+    ("largest by bending", |p| p.bending_m, meters, |t| t.bending_s),
     ("uplift", |p| Some(p.uplift_m), meters, |t| Some(t.uplift_s)),
     ("impacts", |p| Some(p.impacts as f64), |x| format!("{x:.0}"), |_| None),
 ];
+
+fn at_top(times: &PeakTimes) -> Option<f64> {
+    Some(times.top_displacement_s)
+}
 
 /// Below this a displacement is rounding (m).
 const ROUNDING_M: f64 = 1e-12;
@@ -51,9 +59,6 @@ pub fn peak_table(run: &Run) -> Option<Table> {
         Some(end) => format!("{} to {} s", run.reference, significant(end, 3)),
         None => run.reference.to_string(),
     };
-    // the parts of a displacement are largest at times of their own, so that they are more than the
-    // whole
-    let opposed = pair.reference.rocking_m > pair.reference.top_displacement_m;
     // what is largest after the motion can be foretold is marked
     let until = run.predictable_to();
     let late = |when: fn(&PeakTimes) -> Option<f64>, peaks: &Peaks| {
@@ -61,14 +66,9 @@ pub fn peak_table(run: &Run) -> Option<Table> {
         times.is_some_and(|(times, until)| when(times) > Some(until))
     };
     let any = |peaks: &Peaks| ROWS.iter().any(|row| late(row.3, peaks));
-    let largest = match pair.reference.bending_m {
-        _ if any(&pair.reference) || any(&pair.springs) => match opposed {
-            true => "largest; parts oppose (* not predictable)",
-            false => "largest (* not predictable)",
-        },
-        Some(_) if opposed => "largest; parts oppose",
-        Some(_) => "largest, each by itself",
-        None => "largest",
+    let largest = match any(&pair.reference) || any(&pair.springs) {
+        true => "largest (* not predictable)",
+        false => "largest",
     };
     let on_springs = match pair.reference_ends_s {
         Some(_) => "on springs, to the end",
@@ -79,13 +79,14 @@ pub fn peak_table(run: &Run) -> Option<Table> {
     let row = |(name, of, words, when): PeakRow| {
         let (a, b) = (of(&pair.reference)?, of(&pair.springs)?);
         // feet that land where they stood move by the height of the lift times the rotation alone
-        if name == MOVED && a.max(b) < NOT_SAID * pair.reference.top_displacement_m {
+        let little = NOT_SAID * pair.reference.top_displacement_m;
+        if name == MOVED && a.abs().max(b.abs()) < little {
             return None;
         }
         let difference = match name {
             "impacts" => String::new(),
             _ if pair.reference_ends_s.is_some() => "-".into(),
-            _ if a > ROUNDING_M => percent(b / a - 1.0),
+            _ if a.abs() > ROUNDING_M => percent(b / a - 1.0),
             _ => "-".into(),
         };
         // a rigid body's are those of some strength
@@ -117,32 +118,52 @@ pub fn peak_table(run: &Run) -> Option<Table> {
     Some(table)
 }
 
+/// A row of `summary.csv`: its name, its quantity, its unit, and when it is largest (s).
+type SummaryRow =
+    (&'static str, fn(&Peaks) -> Option<f64>, &'static str, fn(&PeakTimes) -> Option<f64>);
+
+const SUMMARY: [SummaryRow; 7] = [
+    ("top displacement", |p| Some(p.top_displacement_m), "m", at_top),
+    ("by rocking", |p| p.bending_m.map(|_| p.rocking_m), "m", |t| Some(t.rocking_s)),
+    ("by bending", |p| p.bending_m, "m", |t| t.bending_s),
+    ("feet moved", |p| p.feet_moved_m, "m", |t| t.feet_moved_s),
+    ("drift ratio", |p| Some(p.drift_ratio), "1", at_top),
+    ("uplift", |p| Some(p.uplift_m), "m", |t| Some(t.uplift_s)),
+    ("impacts", |p| Some(p.impacts as f64), "1", |_| None),
+];
+
 /// `summary.csv`: largest displacements and design forces as plain numbers, SI units; cells of what
 /// is withheld are empty. `holds_to_s`: up to when a force counts, if that is not all of the
-/// record.
+/// record; `time_s`: when it is, on springs; `predictable`: whether the motion is, up to then.
 pub fn summary(run: &Run) -> Table {
-    let mut table = Table::new(["quantity", "unit", "reference", "on_springs", "holds_to_s"]);
-    let mut row = |name: &str, unit: &str, numbers: [Option<f64>; 3]| {
+    let head = ["quantity", "unit", "reference", "on_springs", "holds_to_s", "time_s"];
+    let mut table = Table::new(head.into_iter().chain(["predictable"]));
+    let mut row = |name: &str, unit: &str, numbers: [Option<f64>; 4], sure: Option<bool>| {
         let cell = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x:.6e}"));
-        table
-            .rows
-            .push([vec![name.to_string(), unit.to_string()], numbers.map(cell).into()].concat());
+        let sure = sure.map_or(String::new(), |sure| sure.to_string());
+        let cells = numbers.map(cell).into_iter().chain([sure]);
+        table.rows.push([name.to_string(), unit.to_string()].into_iter().chain(cells).collect());
     };
+    let until = run.predictable_to();
     if let Some(pair) = &run.peaks {
         let springs = pair.with_members.unwrap_or(pair.springs);
-        let units = ["m", "m", "m", "m", "1", "m", "1"];
-        for ((name, of, ..), unit) in ROWS.into_iter().zip(units) {
+        for (name, of, unit, when) in SUMMARY {
             let (a, b) = (of(&pair.reference), of(&springs));
+            let time = springs.times.as_ref().and_then(when);
+            let sure = time.map(|time| until.is_none_or(|until| time <= until));
             if a.or(b).is_some() {
-                row(name.trim(), unit, [a, b, None]);
+                row(name, unit, [a, b, None, time], sure);
             }
         }
     }
+    let words = run.force_words();
     for (name, force) in run.design_forces.iter().flat_map(|forces| forces.all()) {
         // an elastic structure's reference has no largest force of its own
         let reference =
             force.rigid.filter(|_| !matches!(run.parameters, FiledParameters::Elastic(_)));
-        row(name.words(), name.unit(), [reference, force.value, force.over_s]);
+        let time = Some(force.time_s).filter(|_| force.holds);
+        let numbers = [reference, force.value, force.over_s, time];
+        row(words(name), name.unit(), numbers, force.predictable.filter(|_| force.holds));
     }
     table
 }

@@ -183,7 +183,6 @@ impl ElasticParts<'_> {
             });
         };
         let with = with?;
-        let fell = matches!(self.answer.histories.fem.outcome, HistoryOutcome::Overturned { .. });
         let top = PeakChange {
             quantity: "top displacement".into(),
             unit: "m".into(),
@@ -199,7 +198,7 @@ impl ElasticParts<'_> {
         Some(Finding::VerticalLeftOut {
             vertical_g,
             horizontal_g,
-            overturns_s: with.overturns.filter(|_| !fell),
+            overturns_s: with.overturns,
             changes: [top].into_iter().chain(with.forces.into_iter().filter_map(change)).collect(),
             checked: false,
         })

@@ -25,6 +25,7 @@ pub mod rigid;
 pub mod screen;
 pub mod stiffness_tradeoff;
 pub mod table;
+mod verdict;
 
 use rocking::structure::Kind;
 use serde::Serialize;
@@ -40,8 +41,8 @@ use springs::{
     },
     parameters::{Parameters, elastic::ElasticParameters},
     results::{
-        DeckEnd, DesignForce, DesignForces, FiledFinding, Finding, FindingModel, ForceName,
-        PeakChange, PeakPair, Weight, apart_words,
+        DeckEnd, DesignForce, DesignForces, FiledFinding, Finding, ForceName, PeakChange, PeakPair,
+        Weight,
     },
 };
 pub use table::Table;
@@ -248,32 +249,6 @@ pub fn filed(findings: impl IntoIterator<Item = Finding>) -> Vec<FiledFinding> {
 }
 
 impl Run {
-    /// What the run was asked, in one sentence.
-    pub fn verdict(&self) -> String {
-        let answer = self.findings.iter().find(|finding| finding.weight == Weight::Answer);
-        let graver =
-            self.findings.iter().find(|f| matches!(f.finding, Finding::ModelsDisagree { .. }));
-        let Some(told) = graver.or(answer) else {
-            return "Springs without a record: nothing rocked.".into();
-        };
-        sentence(&format!(
-            "{}{}{}{}",
-            told.message,
-            self.not_computed(),
-            self.feet_apart(),
-            self.foretold()
-        ))
-    }
-
-    /// Where the feet end, if not where they began.
-    fn feet_apart(&self) -> String {
-        let apart = self.findings.iter().find_map(|filed| match filed.finding {
-            Finding::FeetApart { apart_m, predictable: true } => Some(apart_m),
-            _ => None,
-        });
-        apart.map_or(String::new(), |apart| format!("; its feet end {}", apart_words(apart)))
-    }
-
     /// Names of forces: a block has no column.
     pub(crate) fn force_words(&self) -> fn(ForceName) -> &'static str {
         match &self.parameters {
@@ -297,65 +272,6 @@ impl Run {
             })
         };
         holds_to.is_some_and(late)
-    }
-
-    /// Whether, and up to when, a motion can be foretold; nothing where nothing rocks or stands.
-    fn foretold(&self) -> String {
-        let any = |of: fn(&Finding) -> bool| self.findings.iter().any(|filed| of(&filed.finding));
-        if let Some(until) = self.predictable_to() {
-            let s = |time: f64| files::message::significant(time, 4);
-            let later = self.findings.iter().find_map(|filed| match filed.finding {
-                Finding::Stands { largest_at_s, .. } => largest_at_s.filter(|&time| time > until),
-                _ => None,
-            });
-            let later = if later.is_some() { "; the largest rotation is not" } else { "" };
-            let until_then = self.peaks.and_then(|pair| Some((pair.foretold?, pair.reference)));
-            let until_then = until_then
-                .filter(|_| !later.is_empty())
-                .filter(|(part, all)| part.top_displacement_m[0] < all.top_displacement_m)
-                .map(|(part, _)| files::message::quantity(part.top_displacement_m[0], "m"));
-            let until_then = until_then.map_or(String::new(), |top| format!(" (top {top})"));
-            return format!("; predictable to {} s{until_then}{later}", s(until));
-        }
-        if let Some(time) = self.peaks.and_then(|pair| pair.reference_ends_s) {
-            return format!("; beyond {} s on springs alone", files::message::significant(time, 4));
-        }
-        let in_part = any(|f| match f {
-            Finding::DeckJudged { end, .. } => *end != DeckEnd::Record,
-            _ => matches!(
-                f,
-                Finding::ModelsDisagree { .. }
-                    | Finding::HistoryEndsEarly { .. }
-                    | Finding::NoAnswer { .. }
-            ),
-        });
-        match any(|f| matches!(f, Finding::Stands { .. })) && !in_part {
-            true => "; predictable".into(),
-            false => String::new(),
-        }
-    }
-
-    /// Up to when a motion can be foretold (s), if that is not all of it.
-    pub(crate) fn predictable_to(&self) -> Option<f64> {
-        predictable_to(&self.findings)
-    }
-
-    /// What of the answer is missing, because a history ended before its record.
-    fn not_computed(&self) -> String {
-        let ended = self.findings.iter().filter_map(|filed| match filed.finding {
-            Finding::HistoryEndsEarly { model, time_s, .. } => Some((model, time_s)),
-            _ => None,
-        });
-        let words = |(model, time_s): (FindingModel, f64)| {
-            let of = match model {
-                FindingModel::Reference if self.reference == HOUSNER => "by Housner's equation",
-                FindingModel::Reference => "on rigid ground",
-                FindingModel::Springs => "on springs",
-                FindingModel::Members => "with members",
-            };
-            format!("; NOT computed {of} after {} s", files::message::significant(time_s, 4))
-        };
-        ended.map(words).collect()
     }
 
     /// Whether the motion can be foretold up to a force's largest value.

@@ -285,7 +285,8 @@ fn other_forces(run: &Run) -> Option<Section> {
             "Forces are given below {} Hz: one and a half times the third bending mode of the \
                 column on a fixed footing. The last two columns have what faster waves of a \
                 landing add in this run: how much hangs on how suddenly it lands, which a rigid \
-                footing does not tell.",
+                footing does not tell. Unfiltered, a section has the inertia of the half element \
+                below it, too, which members_envelopes.csv has not.",
             significant(hz, 3)
         )
     });

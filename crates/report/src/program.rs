@@ -8,7 +8,7 @@ use springs::{
     parameters::{
         Parameters,
         elastic::ElasticParameters,
-        program::{FootUnits, ProgramErrors, ProgramRow, ProgramTest, not_to_be_used},
+        program::{FootUnits, ProgramErrors, ProgramRow, ProgramTest},
     },
     results::{FiledFinding, Finding, PeakPair},
     tuning::fixed_steps::THROUGH,
@@ -41,7 +41,7 @@ pub struct ProgramReport {
     /// The same errors in parts and suites.
     #[serde(skip)]
     table: Table,
-    /// Whether the program gets through at least half of the motions tried.
+    /// Whether they are of use: the program gets through most motions tried, and errs by less.
     #[serde(skip)]
     pub(crate) usable: bool,
     /// Whether it is OpenSees with steps of one size, which has a deck of its own.
@@ -151,7 +151,7 @@ impl ProgramReport {
             short_errors: errors(row, peaks, false),
             units,
             table: table(row),
-            usable: row.mostly_lost().is_none(),
+            usable: row.not_to_be_used().is_none(),
             deck_of_even_steps: row.is_opensees_even(),
             csi: row.is_csi(),
             stiffer: row.stiffer_for_earthquakes.then_some(
@@ -260,8 +260,8 @@ fn errors<U>(row: &ProgramRow<U>, (peaks, late): (&str, bool), room: bool) -> St
     let Some((name, errors)) = worst else {
         return "errors not measured".into();
     };
-    if let Some(lost) = row.mostly_lost() {
-        return not_to_be_used(lost);
+    if let Some(why) = row.not_to_be_used() {
+        return why.to_string();
     }
     let cell = |x: Option<f64>| x.map_or("lost".into(), percent);
     let [median, ninety] = errors.peak.map(cell);

@@ -32,6 +32,7 @@ use springs::{
     rigid_forces::design_forces,
     tuning::{job::Job, paper_procedure::table_1},
 };
+use strong_motion::Record;
 
 /// A job done: springs, both models' histories, and what parameters.json holds.
 pub struct RigidRun {
@@ -93,7 +94,7 @@ impl RigidRun {
         if let Some(row) = &mut parameters.program {
             row.on_record = on_record;
         }
-        let (softer, until) = (softer(&case, &job, &both), report.holds_to_s);
+        let (softer, until) = (softer(&case, &job, &job.record, &both), report.holds_to_s);
         parameters.design_forces =
             Some(design_forces(kind, &job.body, &job.record, &both, softer.as_ref(), until));
         parameters.design_forces = parameters.design_forces.map(|forces| forces.foretold_to(until));
@@ -182,9 +183,11 @@ impl RigidRun {
         let chains = self.parameters.chains();
         let both = both(&job.body, case.restitution, &chains, &Members::default(), &record);
         let kind = case.structure.kind;
+        // where Housner's solution ends, forces are of springs
+        let softer = softer(case, job, &record, &both);
         let (peaks, forces) = (
             peaks(kind, &job.body, record.dt, &both),
-            design_forces(kind, &job.body, &record, &both, None, None),
+            design_forces(kind, &job.body, &record, &both, softer.as_ref(), None),
         );
         let given = (self.parameters.peaks, self.parameters.design_forces);
         let mut changes = changes(super::force_words(kind), given, (peaks, forces));
@@ -199,7 +202,7 @@ impl RigidRun {
         let fell = |both: &ModelComparison| {
             both.matched.overturned_housner_s.or(both.matched.overturned_fem_s)
         };
-        let overturns_s = fell(&both).filter(|_| fell(&self.both).is_none());
+        let overturns_s = fell(&both);
         let checked = true;
         Some(Finding::VerticalLeftOut { vertical_g, horizontal_g, overturns_s, changes, checked })
     }
@@ -307,7 +310,12 @@ fn taken(structure: &Structure, restitution: f64) -> Taken {
 
 /// The history on springs of a quarter of Omega_n, where Housner's cannot tell whether forces are
 /// the springs': with members, and beyond where his pivot leaves the ground.
-fn softer(case: &Case, job: &Job, both: &ModelComparison) -> Option<MemberHistory> {
+fn softer(
+    case: &Case,
+    job: &Job,
+    record: &Record,
+    both: &ModelComparison,
+) -> Option<MemberHistory> {
     if both.with.is_none() && both.rocking.left_ground().is_none() {
         return None;
     }
@@ -317,14 +325,7 @@ fn softer(case: &Case, job: &Job, both: &ModelComparison) -> Option<MemberHistor
         horizontal: quarter(&job.springs.horizontal),
     };
     let (chains, e) = (springs.chains(case.structure.mass_kg), case.restitution);
-    Some(with_members(
-        &job.body,
-        e,
-        &chains,
-        &case.members,
-        &job.record,
-        (&both.rocking, &both.housner),
-    ))
+    Some(with_members(&job.body, e, &chains, &case.members, record, (&both.rocking, &both.housner)))
 }
 
 /// How far changes of the structure and the record move Housner's history.

@@ -8,7 +8,7 @@ mod warnings;
 
 use super::{
     Run, Table, Unit,
-    displacements::{DIFFERENCE, FRICTION},
+    displacements::{DIFFERENCE, FRICTION, LARGEST},
     peak_table,
 };
 use files::message::{shortened, significant};
@@ -87,6 +87,8 @@ const LONGEST_PATH: usize = 58;
 const LONGEST_CHECK: usize = 2;
 /// The row of the table of peaks that gives way to warnings.
 const IMPACTS: &str = "impacts";
+/// What a record's line has of a vertical motion that is taken.
+const VERTICAL: &str = "; vertical ";
 /// What a doubt of what was given begins with.
 const CHECK: &str = "CHECK     ";
 /// What the report's line begins with.
@@ -166,7 +168,10 @@ fn answer(run: &Run, written: &Written, crowding: Crowding) -> Vec<String> {
     }
     at_most(crowding.sentence, &mut lines, "", &run.verdict());
     let peaks = peak_table(run).into_iter().flat_map(|table| friction_beside(table).lines());
-    lines.extend(peaks.filter(|line| crowding.all_peaks || !line.starts_with(IMPACTS)));
+    let kept = |line: &String| {
+        !line.starts_with(LARGEST) && (crowding.all_peaks || !line.starts_with(IMPACTS))
+    };
+    lines.extend(peaks.filter(kept));
     lines.extend(forces::lines(run));
     springs(run, &mut lines);
     if let Some(accuracy) = &run.accuracy {
@@ -205,8 +210,12 @@ fn taken(run: &Run, written: &Written, most: usize, lines: &mut Vec<String>) {
         run.taken.facts.iter().find(|(fact, _)| fact.starts_with(name)).map(|(_, value)| value)
     };
     let first = fact("first lifts").map_or(String::new(), |time| format!(", at {time}"));
-    let lifts =
-        fact("lifts").map_or(String::new(), |value| format!("; lifts beyond {value}{first}"));
+    let vertical = match run.taken.short_record.as_ref().is_some_and(|r| r.contains(VERTICAL)) {
+        true => " (1 + vertical in g)",
+        false => "",
+    };
+    let lifts = fact("lifts")
+        .map_or(String::new(), |value| format!("; lifts beyond {value}{vertical}{first}"));
     at_most(2, lines, "", &format!("{}{lifts}", run.taken.structure));
     if let Some(record) = &run.taken.short_record {
         let name = if record.chars().count() > WIDTH { "record " } else { "" };
@@ -231,8 +240,13 @@ fn taken(run: &Run, written: &Written, most: usize, lines: &mut Vec<String>) {
             return;
         }
     }
-    if !all.is_empty() {
-        lines.push(format!("assumed: {} values: {place}", all.len()));
+    // one that is longer than the lines
+    if let Some(first) = all.first() {
+        let rest = match all.len() - 1 {
+            0 => String::new(),
+            n => format!("; and {n} more: {place}"),
+        };
+        wrap(lines, "assumed: ", &(first.clone() + &rest));
     }
 }
 

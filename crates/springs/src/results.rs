@@ -11,4 +11,4 @@ pub use findings::{
 };
 pub use forces::{DesignForce, DesignForces};
 pub use frames::design_forces::{ForcesTogether, MOST_CHANGE, OtherForces};
-pub use peaks::{ForetoldPeaks, PeakPair, PeakTimes, Peaks};
+pub use peaks::{ForetoldPeaks, PartsOfTop, PeakPair, PeakTimes, Peaks};

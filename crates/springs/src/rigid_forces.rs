@@ -82,7 +82,13 @@ pub fn design_forces(
                     let part = &series[..samples_until(Some(over_s), dt).min(series.len())];
                     Some(HeldForce { value: TimedPeak::of(dt, part)?.value, over_s })
                 });
-                DesignForce { together, held, rigid: Some(all.value), ..found }
+                // no thrust between feet: a leg's shear and moment are those of its own weight,
+                // which a vertical motion makes more
+                let own = kind == Kind::AFrame
+                    && row.is_some_and(|row| row.stands)
+                    && [1, 2].contains(&k);
+                let at_rest = Some(all.value).filter(|_| own);
+                DesignForce { together, held, at_rest, rigid: Some(all.value), ..found }
             };
             (force(0), [1, 2, 3].map(force))
         }
@@ -91,7 +97,7 @@ pub fn design_forces(
     let at_rest = GroundRow::new(kind, body, 0.0, [[0.0, half]; 2]);
     if kind == Kind::AFrame {
         for (force, k) in rows.iter_mut().zip(1..) {
-            force.at_rest = Some(at_rest.largest(k));
+            force.at_rest = force.at_rest.or(Some(at_rest.largest(k)));
         }
     }
     let [shear, moment, axial] = rows.map(Some);
@@ -139,13 +145,15 @@ fn of_housner(
         } else {
             [[f, n], [0.0; 2]]
         };
-        GroundRow::new(kind, body, theta, feet)
+        GroundRow { stands, ..GroundRow::new(kind, body, theta, feet) }
     };
     forces.into_iter().enumerate().take(samples).map(row).collect()
 }
 
 /// Forces at one instant.
 struct GroundRow {
+    /// Whether both feet bear.
+    stands: bool,
     /// On the body, horizontally (N).
     sole_shear: f64,
     /// Of the left leg and of the right one; of a block the same twice.
@@ -159,7 +167,8 @@ impl GroundRow {
         let sole_shear = left_h + right_h;
         if kind == Kind::Block {
             let moment = (left_n - right_n) * body.half_width;
-            return Self { sole_shear, legs: [[sole_shear, moment, -(left_n + right_n)]; 2] };
+            let row = [sole_shear, moment, -(left_n + right_n)];
+            return Self { stands: false, sole_shear, legs: [row; 2] };
         }
         let (sin, cos) = theta.sin_cos();
         let legs = [(-1.0, feet[0]), (1.0, feet[1])].map(|(side, [h, n])| {
@@ -170,7 +179,7 @@ impl GroundRow {
             let moment = h * dz - n * dx;
             [moment / length, moment, (h * dx + n * dz) / length]
         });
-        Self { sole_shear, legs }
+        Self { stands: false, sole_shear, legs }
     }
 
     /// The leg where a force of a leg is the larger one: 0 shear, 1 moment, 2 axial force.

@@ -137,13 +137,16 @@ function bytesOf91(text, length) {
   }
   return bytes.subarray(0, length);
 }
+// The program; before it the worker's script.
+let source;
 async function compiled() {
-  const [length, ...lines] = $("wasm").textContent.trim().split("\n");
+  const [length, script, ...lines] = $("program").textContent.trim().split("\n");
   const packed = bytesOf91(lines.join(""), Number(length));
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return WebAssembly.compile(await new Response(stream).arrayBuffer());
+  const all = await new Response(stream).arrayBuffer();
+  source = URL.createObjectURL(new Blob([all.slice(0, Number(script))], { type: "text/javascript" }));
+  return WebAssembly.compile(all.slice(Number(script)));
 }
-const source = URL.createObjectURL(new Blob([$("glue").textContent, "\n", $("worker").textContent], { type: "text/javascript" }));
 
 // One worker, its calls in order; what is still waiting is dropped when the worker ends.
 class Computer {

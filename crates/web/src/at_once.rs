@@ -185,6 +185,7 @@ fn peaks(assembled: &Assembled, fem: &ElasticHistory) -> Peaks {
         rocking_m: largest(&mut rocking),
         bending_m: Some(bending),
         feet_moved_m: None,
+        then: None,
         uplift_m,
         drift_ratio: top_displacement_m / height,
         impacts: report::elastic::impacts(touches, rest),

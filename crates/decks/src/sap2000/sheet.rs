@@ -5,7 +5,6 @@ use std::fmt::Write;
 use super::{FRICTION, KILO, SapModel, cases::CaseSettings, parts::SpringLinks};
 use files::message::significant;
 use rocking::scalar::GRAVITY;
-use springs::parameters::program::not_to_be_used;
 
 /// Width of a column.
 const COLUMN: usize = 13;
@@ -13,8 +12,8 @@ const COLUMN: usize = 13;
 /// The sheet.
 pub(crate) fn sheet(parts: &SapModel) -> String {
     let mut text = format!("{}\nTo type into SAP2000 or ETABS. Units: kN, m, t, s.\n", parts.title);
-    if let Some(lost) = parts.even.and_then(|even| even.lost) {
-        text += &format!("{}.\n", not_to_be_used(lost));
+    if let Some(why) = parts.even.and_then(|even| even.not_to_be_used) {
+        text += &format!("{why}.\n");
     }
     for (number, part) in [
         joints(parts),

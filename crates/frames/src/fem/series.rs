@@ -8,7 +8,7 @@
 //!
 //! A part's mean times its length is the impulse of the force: no landing is between two samples.
 
-use super::{run::ElasticView, step::ElasticStages};
+use super::{filter::low_pass, run::ElasticView, step::ElasticStages};
 use crate::frame::{Frame, FrameColumn};
 use dynamics::fem::radau::C;
 use rocking::scalar::GRAVITY;
@@ -68,6 +68,19 @@ pub struct FineForces {
 }
 
 impl FineForces {
+    /// The ground's vertical force below a frequency (Hz), at times dt (s) apart, so many.
+    pub fn sole_vertical_below(&self, hz: f64, dt: f64, samples: usize) -> Vec<f64> {
+        let smooth = low_pass(&self.sole[1].means, self.part_s, hz);
+        let parts = (dt / self.part_s).round() as usize;
+        // a sample is where two parts meet
+        let at = |sample: usize| {
+            let [before, after] = [(sample * parts).saturating_sub(1), sample * parts];
+            let last = smooth.len().checked_sub(1)?;
+            Some(0.5 * (smooth[before.min(last)] + smooth[after.min(last)]))
+        };
+        (0..samples).filter_map(at).collect()
+    }
+
     /// All series, columns first.
     pub(crate) fn series(&self) -> impl Iterator<Item = &FineSeries> {
         self.columns.iter().flat_map(FineColumn::series).chain(&self.sole)

@@ -2,7 +2,7 @@
 
 use super::{ElasticParts, top_height};
 use crate::predictable_to;
-use ::springs::results::{FiledFinding, PeakPair, PeakTimes, Peaks};
+use ::springs::results::{FiledFinding, PartsOfTop, PeakPair, PeakTimes, Peaks};
 use frames::{answer::ElasticHistories, assembled::Sway, frame::Frame};
 use rocking::{motion::TimedPeak, overturning::samples_until};
 
@@ -34,8 +34,9 @@ impl ElasticParts<'_> {
             .min(samples_until(until, self.record.dt));
         let frame = &self.assembled.frame;
         let of = |q: &dyn Fn(usize) -> Vec<f64>, k: usize, impacts: usize| {
-            let [mut top, mut rocking, mut bending, mut lifted] = [TimedPeak::default(); 4];
-            let mut moved: f64 = 0.0;
+            let [mut top, mut rocking, mut bending] = [TimedPeak::default(); 3];
+            let [mut moved, mut lifted] = [TimedPeak::default(); 2];
+            let mut then = PartsOfTop::default();
             for i in 0..n {
                 let q = q(i);
                 let now = |value: f64| TimedPeak { value, time: i as f64 * self.record.dt };
@@ -43,10 +44,18 @@ impl ElasticParts<'_> {
                     let Sway { rotation, drift } = &pair[k];
                     let [x, ..] = frame.displacement(watched.top, &q);
                     let feet = watched.base.feet_moved(frame, &q);
-                    moved = moved.max(feet.abs());
-                    top = top.larger(now(x));
+                    moved = moved.larger(now(feet));
                     // across the base's axis, which has turned
                     let across = drift[i] * rotation[i].cos();
+                    if x.abs() > top.value.abs() {
+                        let sign = x.signum();
+                        then = PartsOfTop {
+                            rocking_m: sign * (x - feet - across),
+                            bending_m: sign * across,
+                            feet_moved_m: sign * feet,
+                        };
+                    }
+                    top = top.larger(now(x));
                     rocking = rocking.larger(now(x - feet - across));
                     bending = bending.larger(now(drift[i]));
                 }
@@ -57,13 +66,15 @@ impl ElasticParts<'_> {
                 top_displacement_s: top.time,
                 rocking_s: rocking.time,
                 bending_s: Some(bending.time),
+                feet_moved_s: Some(moved.time),
                 uplift_s: lifted.time,
             };
             Peaks {
                 top_displacement_m,
                 rocking_m: rocking.value.abs(),
                 bending_m: Some(bending.value.abs()),
-                feet_moved_m: Some(moved),
+                feet_moved_m: Some(moved.value.abs()),
+                then: Some(then),
                 uplift_m: lifted.value,
                 drift_ratio: top_displacement_m / top_height(&self.assembled.structure),
                 impacts,

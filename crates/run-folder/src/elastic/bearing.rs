@@ -35,12 +35,14 @@ pub(crate) struct ForceQuantities {
 
 impl ForceQuantities {
     pub(crate) fn new(assembled: &Assembled, answer: &ElasticAnswer, dt: f64) -> Self {
-        let ground = &answer.histories.fem.ground;
-        Self {
-            quantities: quantities(assembled, answer),
-            filtered: ground.filtered(1, dt, FILTER_HZ),
-            below_hz: resolves(dt, FILTER_HZ).then_some(FILTER_HZ),
-        }
+        let fem = &answer.histories.fem;
+        let fine = fem.fine.as_ref().filter(|fine| resolves(fine.part_s, FILTER_HZ));
+        let (filtered, below) = match fine {
+            Some(fine) => (fine.sole_vertical_below(FILTER_HZ, dt, fem.demands.len()), true),
+            None => (fem.ground.filtered(1, dt, FILTER_HZ), resolves(dt, FILTER_HZ)),
+        };
+        let below_hz = below.then_some(FILTER_HZ);
+        Self { quantities: quantities(assembled, answer), filtered, below_hz }
     }
 }
 

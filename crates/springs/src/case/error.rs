@@ -121,11 +121,13 @@ pub fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> CaseError
     };
     let unknown = UnknownKey::of(whole);
     let mistaken = unknown.as_ref().and_then(|unknown| named(&unknown.key));
-    let line = mistaken.or_else(|| text_for_number(whole, text)).map_or(line, |i| i + 1);
+    let line = mistaken.or_else(|| of_another_type(whole, text)).map_or(line, |i| i + 1);
     // serde's names of numbers are not a user's
-    let message = ["expected f64", "expected usize", "expected u64", "expected u32"]
+    let message = ["usize", "u64", "u32"]
         .iter()
-        .fold(one_line(whole), |message, rust| message.replace(rust, "expected a number"));
+        .fold(one_line(whole).replace("expected f64", "expected a number"), |message, rust| {
+            message.replace(&format!("expected {rust}"), "expected a whole number")
+        });
     if let Some(message) = text.lines().nth(line - 1).and_then(decimal_comma) {
         return CaseError::Parse { path: path.into(), line, message };
     }
@@ -168,12 +170,23 @@ pub fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> CaseError
     CaseError::Parse { path: path.into(), line, message }
 }
 
-/// Where a text stands for a number, by serde's message: TOML may name the section's first line.
-fn text_for_number(message: &str, text: &str) -> Option<usize> {
-    let value = message.strip_prefix("invalid type: string ")?.split_once(", expected")?.0;
-    text.lines().position(|line| {
-        line.split_once('=').is_some_and(|(_, given)| given.trim().starts_with(value))
-    })
+/// Where a value of another type stands, by serde's message: TOML may name the section's first
+/// line.
+fn of_another_type(message: &str, text: &str) -> Option<usize> {
+    let given = message.strip_prefix("invalid type: ")?.split_once(", expected")?.0;
+    let values = || text.lines().map(|line| line.split_once('=').map(|(_, value)| value.trim()));
+    if let Some(value) = given.strip_prefix("string ") {
+        return values().position(|given| given.is_some_and(|given| given.starts_with(value)));
+    }
+    let number: f64 = given.strip_prefix("floating point ")?.trim_matches('`').parse().ok()?;
+    let is_it = |value: &str| {
+        value.split('#').next().is_some_and(|value| {
+            value.contains(['.', 'e', 'E']) && value.trim().parse() == Ok(number)
+        })
+    };
+    // one of several that are alike may be meant
+    let mut those = values().enumerate().filter(|(_, given)| given.is_some_and(is_it));
+    those.next().filter(|_| those.next().is_none()).map(|(i, _)| i)
 }
 
 /// The line and the name of a key that stands for `kind`, where there is none: all other keys hang

@@ -86,6 +86,10 @@ fn line_of(text: &str, key: &str) -> Option<usize> {
             section = name.trim().to_owned();
         }
         let here = of.is_none_or(|of| of == section);
+        // a section by its name
+        if of.is_none() && line.starts_with('[') && section == key {
+            return Some(i + 1);
+        }
         let named = line.split_once('=').is_some_and(|(given, _)| given.trim() == key);
         (here && named).then_some(i + 1)
     })
@@ -119,6 +123,7 @@ mod tests {
         assert!(said("scale = 0.0\n").starts_with("a/case.toml, line 7: record.scale is 0.0"));
         assert_eq!(line_of("[a]\nx = 1\n[b]\nx = 2\n", "b.x"), Some(4));
         assert_eq!(line_of("[a]\nx = 1\n", "b.x"), None);
+        assert_eq!(line_of("[a]\nx = 1\n\n[friction]\n", "friction"), Some(4));
         let text = "[structure]\nheight_m = 1.0\nfooting_height_m = 3.0\n";
         let message = "structure: footing_height_m is 3.0 and height_m 1.0";
         assert_eq!(line_named(text, message), Some(3));

@@ -15,7 +15,10 @@ pub(super) fn in_plain_words(message: &str, line: &str) -> Option<String> {
         return Some(format!("{key} is \"{}\"; known are {known}", one_line(given)));
     }
     if let Some((_, wanted)) = message.strip_prefix("invalid type: ")?.split_once(", expected ") {
-        let wanted = wanted_words(wanted, value);
+        let wanted = match key.as_str() {
+            "vertical" => "\"auto\", or the file of one in quotes".into(),
+            _ => wanted_words(wanted, value),
+        };
         return Some(format!("{key} is {}; write {wanted}", one_line(value)));
     }
     None
@@ -78,6 +81,10 @@ fn without_comment(value: &str) -> &str {
 /// What serde expects.
 fn wanted_words(wanted: &str, given: &str) -> String {
     match wanted {
+        "a whole number" => match given.parse::<f64>() {
+            Ok(x) if x.fract() == 0.0 && (0.0..1e9).contains(&x) => format!("a whole number, {x}"),
+            _ => "a whole number".into(),
+        },
         "a number" if given.starts_with('"') => "a number, without quotes".into(),
         "a number" if given.parse::<f64>().is_ok() => "a number with a point or an exponent".into(),
         "path string" | "a string" => "a text in quotes".into(),
@@ -125,7 +132,11 @@ mod tests {
         );
         assert_eq!(
             told("invalid type: boolean `true`, expected path string", "vertical = true"),
-            "vertical is true; write a text in quotes"
+            "vertical is true; write \"auto\", or the file of one in quotes"
+        );
+        assert_eq!(
+            told("invalid type: floating point `4.0`, expected a whole number", "elements = 4.0"),
+            "elements is 4.0; write a whole number, 4"
         );
         assert_eq!(
             told("unknown variant `column`, expected `aframe` or `block`", "kind = \"column\""),

@@ -190,7 +190,9 @@ impl<'de> Visitor<'de> for Keys {
                         let total = [first, key].into_iter().find(|key| key.starts_with(TOTAL));
                         match total.filter(|_| kind == Some(Kind::AFrame)) {
                             Some(total) => for_a_block(total),
-                            None => format!("{first} and {key} give the same; leave one out"),
+                            None => {
+                                format!("{first} and {key} give the same quantity; leave one out")
+                            }
                         }
                     });
                     given[quantity as usize] =
@@ -337,12 +339,15 @@ mod tests {
         );
         assert_eq!(
             twice,
-            "case.toml, line 4: height_m and total_height_m give the same; leave one out"
+            "case.toml, line 4: height_m and total_height_m give the same quantity; leave one out"
         );
         let twice = said(
             "kind = \"block\"\nheight_m = 1.0\nheight_ft = 3.0\nwidth_m = 0.5\nmass_kg = 1.0\n",
         );
-        assert_eq!(twice, "case.toml, line 3: height_ft and height_m give the same; leave one out");
+        assert_eq!(
+            twice,
+            "case.toml, line 3: height_ft and height_m give the same quantity; leave one out"
+        );
         let frame = said("kind = \"aframe\"\ntotal_height_m = 2.0\nwidth_m = 0.5\nmass_kg = 1.0\n");
         assert!(frame.contains("total_height_m is for a block"), "{frame}");
         let both = said(

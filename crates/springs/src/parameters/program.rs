@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::elastic::CornerRow;
 use crate::tuning::{elastic::program::ElasticProgramSprings, fixed_steps::ProgramSprings};
 use dynamics::spring::{Chain, ChainRow, Springs};
+use files::message::percent;
 use fixed_steps::{FixedStepProgram, Integrator, ProgramName, measured::ErrorsOverMotions};
 use rocking::structure::Structure;
 
@@ -208,9 +209,30 @@ impl ProgramRow<CornerUnits> {
     }
 }
 
-/// That a program loses so many of its motions, and what to do.
-pub fn not_to_be_used((lost, all): (usize, usize)) -> String {
-    format!("NOT to be used: fails on {lost} of {all} motions; try another --step, longer ones too")
+/// Median error of the largest displacement above which springs are of no use.
+const USELESS: f64 = 0.2;
+
+/// Why springs are not to be used in a program, in words with what to do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NotToBeUsed {
+    /// It gets through less than half of its motions.
+    Lost { lost: usize, motions: usize },
+    /// The largest displacement errs by so much in the median.
+    Errs { median: f64 },
+}
+
+impl std::fmt::Display for NotToBeUsed {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        match self {
+            Self::Lost { lost, motions } => {
+                write!(f, "NOT to be used: fails on {lost} of {motions} motions")?;
+            }
+            Self::Errs { median } => {
+                write!(f, "NOT to be used: peaks err by {} in the median", percent(*median))?;
+            }
+        }
+        write!(f, "; try another --step, longer ones too")
+    }
 }
 
 impl<U> ProgramRow<U> {
@@ -234,10 +256,14 @@ impl<U> ProgramRow<U> {
         self.expected.synthetic.or(self.expected.earthquakes)
     }
 
-    /// Motions that the program loses, and of how many, where that is half of them or more.
-    pub fn mostly_lost(&self) -> Option<(usize, usize)> {
-        let errors = self.measured().filter(|errors| errors.peak[0].is_none())?;
-        Some((errors.lost, errors.histories))
+    /// Whether the springs are of no use, and why.
+    pub fn not_to_be_used(&self) -> Option<NotToBeUsed> {
+        let errors = self.measured()?;
+        let (lost, motions) = (errors.lost, errors.histories);
+        match errors.peak[0] {
+            None => Some(NotToBeUsed::Lost { lost, motions }),
+            Some(median) => (median > USELESS).then_some(NotToBeUsed::Errs { median }),
+        }
     }
 
     fn known(&self) -> Option<ProgramName> {

@@ -36,12 +36,27 @@ pub struct Peaks {
     pub uplift_m: f64,
     /// Top displacement over the height of the top.
     pub drift_ratio: f64,
+    /// Parts of the top's displacement when it is largest, which are all of it; none of a rigid
+    /// body.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub then: Option<PartsOfTop>,
     /// Impacts above the energy threshold: harder than a fall from 0.02 alpha; of an elastic
     /// structure, all landings.
     pub impacts: usize,
     /// When they are.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub times: Option<PeakTimes>,
+}
+
+/// Parts of the top's displacement at one time, with the sign that it has (m).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PartsOfTop {
+    /// By rotation of the base.
+    pub rocking_m: f64,
+    /// By bending.
+    pub bending_m: f64,
+    /// By feet that landed elsewhere than they stood.
+    pub feet_moved_m: f64,
 }
 
 /// When displacements are largest (s).
@@ -54,6 +69,9 @@ pub struct PeakTimes {
     /// Its part by bending; none of a rigid body.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bending_s: Option<f64>,
+    /// Of what feet have moved; none of a rigid body.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub feet_moved_s: Option<f64>,
     /// Of a foot's uplift.
     pub uplift_s: f64,
 }
@@ -129,6 +147,7 @@ impl Peaks {
             top_displacement_s: moved.time,
             rocking_s: rocking.time,
             bending_s: None,
+            feet_moved_s: None,
             uplift_s: lifted.time,
         };
         Self {
@@ -136,6 +155,7 @@ impl Peaks {
             rocking_m: rocking.value.abs(),
             bending_m: None,
             feet_moved_m: None,
+            then: None,
             uplift_m: 2.0 * body.half_width * lifted.value.abs(),
             drift_ratio: top_displacement_m / height,
             impacts,

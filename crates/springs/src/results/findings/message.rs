@@ -284,8 +284,8 @@ impl Finding {
                 )
             }
             Self::ForcesAtRest { forces } => format!(
-                "{} {} largest at rest: the frame's own weight, half of it on each foot and no \
-                    thrust between them; rocking adds nothing",
+                "{} {} largest at rest: the frame's own weight, with a vertical motion more of it, \
+                    half on each foot and no thrust between them; rocking adds nothing",
                 listed(forces),
                 if forces.len() == 1 { "is" } else { "are" }
             ),

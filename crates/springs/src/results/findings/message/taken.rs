@@ -4,8 +4,8 @@ use crate::results::findings::{DeckEnd, Finding, ForceName, PeakChange};
 use files::message::{percent, quantity, significant};
 
 /// Quantities that a vertical motion left out changes the most, said in its message beside the
-/// displacement and the axial force; all are in parameters.json.
-const CHANGES_SAID: usize = 2;
+/// displacement, the axial force and the largest moment; all are in parameters.json.
+const CHANGES_SAID: usize = 1;
 /// Share below which a quantity is said not to change.
 const LEAST_CHANGE: f64 = 0.01;
 
@@ -31,6 +31,10 @@ impl Finding {
                     "" => significant(c.with, 3),
                     unit => quantity(c.with, unit),
                 };
+                // the largest moment, too
+                let moments = all.iter().filter(|c| c.unit == "N m");
+                let moment = moments.max_by(|a, b| a.with.total_cmp(&b.with)).copied();
+                let always = |c: &PeakChange| always(c) || Some(c) == moment;
                 let most_of_all: Vec<&PeakChange> =
                     all.iter().filter(|c| !always(c)).take(CHANGES_SAID).copied().collect();
                 let said = all.iter().filter(|c| always(c) || most_of_all.contains(c));

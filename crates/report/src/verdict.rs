@@ -1,0 +1,105 @@
+//! What a run was asked, in one sentence.
+
+use crate::{HOUSNER, Run, predictable_to, sentence};
+use files::message::{quantity, significant};
+use springs::results::{DeckEnd, Finding, FindingModel, Weight, apart_words};
+
+impl Run {
+    /// What the run was asked, in one sentence.
+    pub fn verdict(&self) -> String {
+        let answer = self.findings.iter().find(|finding| finding.weight == Weight::Answer);
+        let graver =
+            self.findings.iter().find(|f| matches!(f.finding, Finding::ModelsDisagree { .. }));
+        let Some(told) = graver.or(answer) else {
+            return "Springs without a record: nothing rocked.".into();
+        };
+        sentence(&format!(
+            "{}{}{}{}",
+            told.message,
+            self.not_computed(),
+            self.feet_apart(),
+            self.foretold()
+        ))
+    }
+
+    /// Where the feet end, if not where they began.
+    fn feet_apart(&self) -> String {
+        let apart = self.findings.iter().find_map(|filed| match filed.finding {
+            Finding::FeetApart { apart_m, predictable: true } => Some(apart_m),
+            _ => None,
+        });
+        apart.map_or(String::new(), |apart| format!("; its feet end {}", apart_words(apart)))
+    }
+
+    /// Whether, and up to when, a motion can be foretold; nothing where nothing rocks or stands.
+    fn foretold(&self) -> String {
+        let any = |of: fn(&Finding) -> bool| self.findings.iter().any(|filed| of(&filed.finding));
+        let s = |time: f64| significant(time, 4);
+        let ends = self.peaks.and_then(|pair| pair.reference_ends_s);
+        let alone =
+            ends.map_or(String::new(), |time| format!("; beyond {} s on springs alone", s(time)));
+        let end = self.findings.iter().find_map(|filed| match filed.finding {
+            Finding::Overturns { time_s, .. } => Some(time_s),
+            _ => None,
+        });
+        if let Some(until) =
+            self.predictable_to().filter(|until| end.is_none_or(|end| *until < end))
+        {
+            return format!("; predictable to {} s{}{alone}", s(until), self.until_then(until));
+        }
+        let in_part = any(|f| match f {
+            Finding::DeckJudged { end, .. } => *end != DeckEnd::Record,
+            // of a motion that a small change moves, though nowhere by much, nothing is promised
+            Finding::IllConditioned { .. } => true,
+            _ => matches!(
+                f,
+                Finding::ModelsDisagree { .. }
+                    | Finding::HistoryEndsEarly { .. }
+                    | Finding::NoAnswer { .. }
+            ),
+        });
+        match any(|f| matches!(f, Finding::Stands { .. })) && !in_part && alone.is_empty() {
+            true => "; predictable".into(),
+            false => alone,
+        }
+    }
+
+    /// Of a motion that can be foretold up to a time (s): its top's displacement up to then, where
+    /// it is larger later; whether the largest rotation comes later.
+    fn until_then(&self, until: f64) -> String {
+        let later = self.findings.iter().any(|filed| match filed.finding {
+            Finding::Stands { largest_at_s, .. } => largest_at_s.is_some_and(|time| time > until),
+            _ => false,
+        });
+        let later = if later { "; the largest rotation is not" } else { "" };
+        let then = self.peaks.and_then(|pair| Some((pair.foretold?, pair.reference)));
+        let then = then
+            .filter(|(part, all)| part.top_displacement_m[0] < all.top_displacement_m)
+            .map(|(part, _)| quantity(part.top_displacement_m[0], "m"));
+        let then = then.map_or(String::new(), |top| format!(" (top {top})"));
+        format!("{then}{later}")
+    }
+
+    /// Up to when a motion can be foretold (s), if that is not all of it.
+    pub(crate) fn predictable_to(&self) -> Option<f64> {
+        predictable_to(&self.findings)
+    }
+
+    /// What of the answer is missing, because a history ended before its record.
+    fn not_computed(&self) -> String {
+        let ended = self.findings.iter().filter_map(|filed| match filed.finding {
+            Finding::HistoryEndsEarly { model, time_s, .. } => Some((model, time_s)),
+            _ => None,
+        });
+        let words = |(model, time_s): (FindingModel, f64)| {
+            let of = match model {
+                FindingModel::Reference if self.reference == HOUSNER => "by Housner's equation",
+                FindingModel::Reference => "on rigid ground",
+                FindingModel::Springs => "on springs",
+                FindingModel::Members => "with members",
+            };
+            format!("; NOT computed {of} after {} s", significant(time_s, 4))
+        };
+        ended.map(words).collect()
+    }
+}
