@@ -8,7 +8,7 @@ use super::{
     language::{Language, PYTHON, TCL, record_note},
     model::{STEPS_PER_PERIOD, digits, whole},
     plain::{self, NamedSprings},
-    printable, sap2000,
+    printable_title, sap2000,
     stepping::EvenSteps,
 };
 use dynamics::spring::{Chain, Springs};
@@ -148,7 +148,7 @@ impl ElasticDeck<'_> {
         let damped = even.map_or(1.0, |even| even.forces_at());
         let tolerance = even.map_or(TOLERANCE * self.frame.span(), |even| even.tolerance());
         let values = [
-            ("TITLE", printable(self.title)),
+            ("TITLE", printable_title(self.title)),
             ("GRAVITY", digits(GRAVITY)),
             ("NODES", language.lines(self.nodes())),
             ("TOP", (self.top.0 + 1).to_string()),

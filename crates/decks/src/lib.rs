@@ -309,5 +309,10 @@ fn printable(name: &str) -> String {
         .collect()
 }
 
+/// A title: names with commas between.
+fn printable_title(title: &str) -> String {
+    title.split(',').map(printable).collect::<Vec<_>>().join(",")
+}
+
 #[cfg(test)]
 mod tests;

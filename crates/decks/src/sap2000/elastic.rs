@@ -1,7 +1,7 @@
 //! An elastic structure for the tables: beams between joints, stiff arms to places off their nodes.
 
 use super::parts::{Bar, FootJoints, Joint, LINK_LENGTH, SapModel, SapSection, SpringLinks};
-use crate::{elastic::ElasticDeck, printable, stepping::EvenSteps};
+use crate::{elastic::ElasticDeck, printable_title, stepping::EvenSteps};
 use frames::{beam, frame::NodePoint};
 
 /// What a frame that stands for axial stiffness alone has of the beam's bending stiffness, and the
@@ -109,7 +109,7 @@ impl<'a> SapModel<'a> {
         };
         let (top, _) = deck.top;
         Self {
-            title: printable(deck.title),
+            title: printable_title(deck.title),
             notes: if even.is_some() { NOTES.into() } else { format!("{NOTES}{SHORT_STEPS}") },
             feet: stands.iter().enumerate().map(foot).collect(),
             units: deck.springs.iter().enumerate().map(unit).collect(),
