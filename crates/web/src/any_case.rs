@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use crate::WebError;
 use rocking::structure::Body;
 use springs::{
-    case::{Case, ElasticCase, Objective},
+    case::{Case, CaseError, ElasticCase, Objective},
     tuning::landing_simulation::differs_from_housner,
 };
 use strong_motion::{Notice, excitation::Excitation};
@@ -27,6 +27,14 @@ pub(crate) fn forget() {
     *LAST.lock().unwrap_or_else(PoisonError::into_inner) = None;
 }
 
+/// Who gives a file to a page has no line of a case file that names it.
+fn of_record(error: CaseError) -> CaseError {
+    match error {
+        CaseError::OfRecord { source, .. } => CaseError::Record(source),
+        other => other,
+    }
+}
+
 impl AnyCase {
     /// From a case file's text; its record is one of the files given, or El Centro.
     pub(crate) fn of(text: &str) -> Result<Arc<Self>, WebError> {
@@ -41,9 +49,9 @@ impl AnyCase {
 
     fn parsed(text: &str) -> Result<Self, WebError> {
         if ElasticCase::is(text) {
-            return Ok(Self::Elastic(Box::new(ElasticCase::parse(NAME, text)?)));
+            return Ok(Self::Elastic(Box::new(ElasticCase::parse(NAME, text).map_err(of_record)?)));
         }
-        let case = Case::parse(NAME, text)?;
+        let case = Case::parse(NAME, text).map_err(of_record)?;
         // what leads to a search that asks the time, which a page has not, or takes minutes
         let refused = [
             ("tuning.objective = \"arr\"", case.tuning.objective == Objective::Arr),

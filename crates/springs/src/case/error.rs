@@ -5,6 +5,7 @@ use std::path::Path;
 use thiserror::Error;
 
 use super::{
+    located::in_keys,
     missing,
     plain_words::{in_plain_words, unreadable},
     unknown_key::UnknownKey,
@@ -61,8 +62,8 @@ pub enum CaseError {
     TwoYardsticks { path: String, peaks: String, accuracy: String },
     #[error(transparent)]
     Record(#[from] RecordError),
-    #[error("{path}: {message}")]
-    OfRecord { path: String, message: String },
+    #[error("{path}: {}", in_keys(&.source.to_string()))]
+    OfRecord { path: String, source: RecordError },
     #[error("{path}: not a text file; give a case file (TOML): `tune init` writes one")]
     NotText { path: String },
 }

@@ -40,8 +40,7 @@ impl CaseError {
             }
             Self::Record(source) if *asked == ReadOptions::default() => {
                 let key = key_of(&source, text);
-                let message = in_keys(&source.to_string());
-                Self::OfRecord { path: at(key.and_then(|key| line_of(text, key))), message }
+                Self::OfRecord { path: at(key.and_then(|key| line_of(text, key))), source }
             }
             other => other,
         }
@@ -70,7 +69,7 @@ fn key_of(error: &RecordError, text: &str) -> Option<&'static str> {
 }
 
 /// Options as keys.
-fn in_keys(message: &str) -> String {
+pub(super) fn in_keys(message: &str) -> String {
     KEYS.iter()
         .fold(message.to_owned(), |message, (option, key)| message.replace(option, key))
         .replace("--dt", "dt_s")
