@@ -30,8 +30,8 @@ pub struct EffortOptions {
     /// same results anywhere
     #[arg(long, value_name = "TIMES", default_value_t = 1.0, allow_negative_numbers = true)]
     work: f64,
-    /// Stop the search for springs after so many seconds, and keep the best so far; what follows on
-    /// them is then done [default: none]
+    /// Stop the search for springs after so many seconds, and keep the best so far; the record is
+    /// then followed on them, without the check of forces [default: none]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     time_limit: Option<f64>,
 }

@@ -109,7 +109,7 @@ impl AccuracyReport {
         let reached = if self.reached { "reached" } else { "NOT reached" };
         let measured: Vec<String> = self.measured().map(on).collect();
         match measured.is_empty() {
-            true => format!("not measured: no motion can be compared; asked: {}", self.asked()),
+            true => format!("not measured; asked: {}", self.asked()),
             false => format!("{} (NRMSE); asked: {}, {reached}", measured.join("; "), self.asked()),
         }
     }

@@ -124,9 +124,9 @@ type SummaryRow =
 
 const SUMMARY: [SummaryRow; 7] = [
     ("top displacement", |p| Some(p.top_displacement_m), "m", at_top),
-    ("by rocking", |p| p.bending_m.map(|_| p.rocking_m), "m", |t| Some(t.rocking_s)),
-    ("by bending", |p| p.bending_m, "m", |t| t.bending_s),
-    ("feet moved", |p| p.feet_moved_m, "m", |t| t.feet_moved_s),
+    ("largest by rocking", |p| p.bending_m.map(|_| p.rocking_m), "m", |t| Some(t.rocking_s)),
+    ("largest by bending", |p| p.bending_m, "m", |t| t.bending_s),
+    ("largest feet moved", |p| p.feet_moved_m, "m", |t| t.feet_moved_s),
     ("drift ratio", |p| Some(p.drift_ratio), "1", at_top),
     ("uplift", |p| Some(p.uplift_m), "m", |t| Some(t.uplift_s)),
     ("impacts", |p| Some(p.impacts as f64), "1", |_| None),

@@ -231,6 +231,9 @@ pub(crate) const HOUSNER: &str = "Housner";
 /// Findings for a run: answers first, then what weighs most.
 pub fn filed(findings: impl IntoIterator<Item = Finding>) -> Vec<FiledFinding> {
     let mut all: Vec<Finding> = findings.into_iter().collect();
+    // of forces that a search which was cut has not checked its own finding tells
+    let cut = all.iter().any(|finding| matches!(finding, Finding::SearchCut { .. }));
+    all.retain(|f| !(cut && matches!(f, Finding::ForceWithheld { change: None, .. })));
     let slides = all.iter().any(|finding| matches!(finding, Finding::Sliding { .. }));
     for finding in &mut all {
         if let Finding::Stands { if_feet_hold, .. } = finding {

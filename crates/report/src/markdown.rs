@@ -244,7 +244,7 @@ fn together(run: &Run) -> Option<Section> {
     let of = match elastic {
         true => {
             "At the time of each largest force, below the same frequency; means over parts of the \
-                record's time step, so at most the largest."
+                record's time step."
         }
         false => "At the time of each largest force, of Housner's body.",
     };

@@ -109,12 +109,7 @@ pub struct Written<'a> {
 impl Written<'_> {
     /// A file of the folder, as it can be typed if it is not too long.
     fn file(&self, name: &str) -> String {
-        self.within(name, LONGEST_PATH)
-    }
-
-    /// The same, of at most so many letters.
-    fn within(&self, name: &str, most: usize) -> String {
-        shortened(&format!("{}/{name}", self.folder.trim_end_matches('/')), most)
+        shortened(&format!("{}/{name}", self.folder.trim_end_matches('/')), LONGEST_PATH)
     }
 
     /// The last line: where the report is, how many warnings are there alone, and the file to type
@@ -127,10 +122,13 @@ impl Written<'_> {
             more => format!(", with {more} more warnings"),
         };
         let typed = program.filter(|_| self.decks);
-        let typed = typed.map(|program| format!("; to type into {program}: decks/{SHEET}"));
-        let rest = more + &typed.unwrap_or_default();
-        let room = WIDTH.saturating_sub(REPORT.len() + rest.chars().count());
-        format!("{REPORT}{}{rest}", self.within(name, room.min(LONGEST_PATH)))
+        let typed = typed.map(|program| format!("; for {program}, beside it: decks/{SHEET}"));
+        let path = self.file(name);
+        let all = format!("{REPORT}{path}{more}{}", typed.unwrap_or_default());
+        match all.chars().count() <= WIDTH {
+            true => all,
+            false => format!("{REPORT}{path}{more}"),
+        }
     }
 }
 

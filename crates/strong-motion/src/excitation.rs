@@ -2,7 +2,7 @@
 
 use crate::{ReadOptions, Source, VerticalFrom};
 use crate::{Record, RecordError};
-use files::message::printable;
+use files::message::{printable, significant};
 
 /// A record as it was read, and what is made of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -100,39 +100,52 @@ impl Excitation {
         let step = self.record.dt;
         let peak = self.record.truncated(self.duration()).pga_time();
         let when = format!(" at {} s", seconds(peak));
-        self.told(&from, &format!(": {samples} samples of {step} s"), &when)
+        let digits = Digits { seconds: |t| seconds(t).to_string(), peaks: |x| format!("{x:.4}") };
+        self.told(&from, &format!(": {samples} samples of {step} s"), &when, &digits)
     }
 
-    /// The same, shorter: without the file's path, the number of samples, and when the peak is.
+    /// The same, shorter: without the file's path, the number of samples, and when the peak is; of
+    /// no number more than four digits.
     pub fn short_line(&self) -> String {
         let from = match &self.record.source {
             crate::Source::File { units, .. } => units.to_string(),
             _ => "embedded".into(),
         };
         let step = format!(", step {} s", self.record.dt);
-        let line = self.told(&from, &step, "");
+        let four = |x: f64| significant(x, 4);
+        let line = self.told(&from, &step, "", &Digits { seconds: four, peaks: four });
         // "first 8 s of 12 s"
         line.replace(", first ", ", ").replace(" s of ", " of ")
     }
 
-    fn told(&self, from: &str, samples: &str, when: &str) -> String {
+    fn told(&self, from: &str, samples: &str, when: &str, digits: &Digits) -> String {
         let whole = &self.record;
         let used = whole.truncated(self.duration());
         let part = if used.len() < whole.len() {
-            format!("first {} s of {} s", seconds(used.duration()), seconds(whole.duration()))
+            let [part, all] = [&used, whole].map(|record| (digits.seconds)(record.duration()));
+            format!("first {part} s of {all} s")
         } else {
-            format!("all {} s", seconds(whole.duration()))
+            format!("all {} s", (digits.seconds)(whole.duration()))
         };
+        let peak = |g: f64| (digits.peaks)(g * self.scale.abs());
         let vertical = used.vertical.as_ref().map_or_else(String::new, |up| {
-            format!("; vertical {}, peak {:.4} g", up.name, up.peak_g() * self.scale.abs())
+            format!("; vertical {}, peak {} g", up.name, peak(up.peak_g()))
         });
         format!(
-            "record {} ({from}), scale {}, {part}{samples}, PGA {:.4} g{when}{vertical}",
+            "record {} ({from}), scale {}, {part}{samples}, PGA {} g{when}{vertical}",
             whole.name,
             self.scale,
-            used.pga_g() * self.scale.abs()
+            peak(used.pga_g())
         )
     }
+}
+
+/// How numbers of a line are written.
+struct Digits {
+    /// Times (s).
+    seconds: fn(f64) -> String,
+    /// Peaks (g).
+    peaks: fn(f64) -> String,
 }
 
 /// Seconds without the rounding of n dt.
@@ -156,6 +169,18 @@ mod tests {
         assert_eq!(part.used().unwrap(), ramp().truncated(1.0).scaled(-2.0).unwrap());
         assert_eq!(Excitation { duration_s: Some(9.0), ..all.clone() }.used().unwrap(), ramp());
         assert!(Excitation { scale: f64::NAN, ..all }.used().is_err());
+    }
+
+    #[test]
+    fn no_number_of_the_short_line_has_more_than_four_digits() {
+        let record = Record::new("ramp", 0.02, (0..8192).map(|i| 0.002 * f64::from(i)).collect());
+        let all = Excitation { duration_s: Some(80.0), ..Excitation::whole(record.unwrap()) };
+        assert_eq!(
+            all.short_line(),
+            "record ramp (embedded), scale 1, 80 of 163.8 s, step 0.02 s, PGA 0.8155 g"
+        );
+        let strong = Excitation { scale: 2.0, ..all };
+        assert!(strong.short_line().ends_with("PGA 1.631 g"), "{}", strong.short_line());
     }
 
     #[test]

@@ -49,7 +49,10 @@ pub(super) fn lines(run: &Run) -> Vec<String> {
     let notes = if notes.is_empty() { String::new() } else { format!(" ({})", notes.join("; ")) };
     let mut lines = Vec::new();
     let head = format!("design forces{}{notes}", which(run, forces));
-    let head = if head.chars().count() > WIDTH { head.replace(GROUND, "") } else { head };
+    // what goes first where it is too long
+    let head = [GROUND, ", landings included"].into_iter().fold(head, |head, part| {
+        if head.chars().count() > WIDTH { head.replace(part, "") } else { head }
+    });
     wrap(&mut lines, "", &head);
     // the report has the vertical force, too
     let mut all: Vec<_> =
@@ -62,8 +65,13 @@ pub(super) fn lines(run: &Run) -> Vec<String> {
         };
         all.iter().map(cell).collect()
     };
-    // an odd one has a line of its own, which is the first: the moment's
-    let lone = all.len() % 2;
+    // an odd one has a line of its own, which is the first: the moment's; and so has one of which
+    // there is more to tell than a pair has room for
+    let fits = |told: Told| in_pairs(&cells(told)).is_some();
+    let more = all.first().is_some_and(|(_, force)| {
+        force.held.is_some() || (force.together.is_some() && !fits(Told::Axial))
+    });
+    let lone = if all.len() % 2 == 1 || (more && !fits(Told::Both)) { 1 } else { 0 };
     let first = |told: Told| {
         cells(told).into_iter().take(lone).map(|cell| format!("  {}", cell.join("  ")))
     };
@@ -85,7 +93,7 @@ fn which(run: &Run, forces: &DesignForces) -> String {
         (_, Some(hz)) => {
             format!(" below {} Hz, landings{GROUND} included", significant(hz, 3))
         }
-        (_, None) => format!(", landings{GROUND} included"),
+        (_, None) => format!(", at soles below 20 Hz, landings{GROUND} included"),
     }
 }
 

@@ -17,7 +17,8 @@ const LEAST_MESSAGE: usize = 34;
 /// What changes a design the most is told first.
 fn urgency(finding: &Finding) -> usize {
     match finding {
-        Finding::IllConditioned { .. } => 0,
+        Finding::SearchCut { .. } | Finding::IllConditioned { .. } => 0,
+        Finding::Sliding { .. } => 1,
         Finding::VerticalLeftOut { .. } => 2,
         Finding::ForcesHeldInPart { .. } | Finding::ForceWithheld { .. } => 4,
         Finding::FeetApart { .. } => 6,
