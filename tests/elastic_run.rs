@@ -287,3 +287,24 @@ fn of_a_record_without_a_motion_no_landing_and_no_error_is_said() {
     assert!(said.contains("The record does not lift the structure"), "{said}");
     assert!(!said.contains("on this record"), "{said}");
 }
+
+/// A portal with all that takes lines: a vertical motion, doubts, forces, a search that was cut.
+#[test]
+fn a_crowded_screen_has_thirty_lines_at_most() {
+    let folder = tempfile::tempdir().unwrap();
+    let record = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/records/20161113_110259_WTMC_20.V2A");
+    let case = format!(
+        "[structure]\nkind = 'frame'\nheight_m = 11.25\nspan_m = 13.25\nfooting_width_m = 3.25\n\
+        footing_height_m = 1.25\nfooting_mass_kg = 40\nbeam_mass_kg = 300e3\ncolumn_ea_n = 4e10\n\
+        column_ei_nm2 = 6e9\nbeam_ea_n = 5e10\nbeam_ei_nm2 = 9e9\ndamping_ratio = 0.03\n\
+        [record]\nfile = '{record}'\nvertical = 'auto'\nscale = -0.55\nduration_s = 200\n"
+    );
+    std::fs::write(folder.path().join("case.toml"), case).unwrap();
+    let run = ["run", "case.toml", "--quiet", "--no-figures", "--time-limit", "1"];
+    let ran = tune(folder.path(), &run);
+    let screen = text(&ran.stdout);
+    assert!(ran.status.success() && screen.lines().count() <= 30, "{screen}");
+    assert!(screen.lines().all(|line| line.chars().count() <= 100), "{screen}");
+    assert_eq!(screen.lines().filter(|line| line.starts_with("CHECK ")).count(), 3, "{screen}");
+    assert!(screen.lines().last().is_some_and(|line| line.starts_with("report ")), "{screen}");
+}

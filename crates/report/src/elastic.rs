@@ -268,6 +268,7 @@ impl ElasticParts<'_> {
         run.taken.facts.extend(first.map(super::first_lift));
         run.taken.record = Some(self.case.excitation.line());
         run.taken.short_record = Some(self.case.excitation.short_line());
+        run.taken.vertical = self.record.vertical.is_some();
         run.taken.assumed = Assumed::all(&self.case.assumptions());
         run.friction_needed = Some(self.friction_needed().value);
         run.sap2000 = self.assembled.members == Members::default();

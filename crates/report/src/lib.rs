@@ -122,6 +122,9 @@ pub struct Taken {
     /// The same in a shorter line, for a screen.
     #[serde(skip)]
     pub(crate) short_record: Option<String>,
+    /// Whether a vertical motion is taken: then what lifts is more, or less.
+    #[serde(skip)]
+    pub(crate) vertical: bool,
     /// What was not given.
     pub assumed: Vec<Assumed>,
 }
@@ -129,7 +132,14 @@ pub struct Taken {
 impl Taken {
     /// A structure without a record.
     pub fn new(structure: String, facts: Vec<(String, String)>) -> Self {
-        Self { structure, facts, record: None, short_record: None, assumed: Vec::new() }
+        Self {
+            structure,
+            facts,
+            record: None,
+            short_record: None,
+            vertical: false,
+            assumed: Vec::new(),
+        }
     }
 }
 

@@ -97,12 +97,12 @@ impl RigidRun {
         let (softer, until) = (softer(&case, &job, &job.record, &both), report.holds_to_s);
         parameters.design_forces =
             Some(design_forces(kind, &job.body, &job.record, &both, softer.as_ref(), until));
-        parameters.design_forces = parameters.design_forces.map(|forces| forces.foretold_to(until));
         let mut run = Self { case, job, front, both, report, of_steps, parameters };
         run.parameters.findings = filed(run.findings());
-        let forces = run.parameters.design_forces;
-        if let Some(until) = predictable_to(&run.parameters.findings) {
-            run.parameters.design_forces = forces.map(|forces| forces.foretold_to(Some(until)));
+        let until = predictable_to(&run.parameters.findings);
+        run.parameters.design_forces =
+            run.parameters.design_forces.map(|forces| forces.foretold_to(until));
+        if let Some(until) = until {
             let part = peaks_to(Some(until), kind, &run.job.body, run.job.record.dt, &run.both);
             run.parameters.peaks = run.parameters.peaks.map(|peaks| peaks.foretold(until, &part));
         }
@@ -123,6 +123,7 @@ impl RigidRun {
                 facts,
                 record: Some(self.case.excitation.line()),
                 short_record: Some(self.case.excitation.short_line()),
+                vertical: record.vertical.is_some(),
                 assumed: self.assumed(),
                 ..taken(&self.case.structure, self.case.restitution)
             },

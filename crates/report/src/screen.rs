@@ -37,6 +37,9 @@ struct Crowding {
     program: usize,
     /// Whether impacts, and the friction needed, stand in the table of peaks.
     all_peaks: bool,
+    /// Whether what was given, doubts of it, what was assumed and settings have one line each, and
+    /// no force has a line of its own.
+    tight: bool,
 }
 
 /// All that there is room for.
@@ -49,6 +52,7 @@ const SPACIOUS: Crowding = Crowding {
     both_commands: true,
     program: 2,
     all_peaks: true,
+    tight: false,
 };
 
 /// What leaves most room.
@@ -61,17 +65,19 @@ const CLOSEST: Crowding = Crowding {
     both_commands: false,
     program: 1,
     all_peaks: true,
+    tight: false,
 };
 
 /// The first is taken if every warning has all its lines there; else the first of the others where
 /// each has what it needs; else the last.
-const CROWDING: [Crowding; 6] = [
+const CROWDING: [Crowding; 7] = [
     SPACIOUS,
     Crowding { empty_line: false, ..SPACIOUS },
     Crowding { assumed: 2, accuracy: 2, ..CLOSEST },
     Crowding { assumed: 2, ..CLOSEST },
     CLOSEST,
     Crowding { all_peaks: false, ..CLOSEST },
+    Crowding { all_peaks: false, tight: true, ..CLOSEST },
 ];
 
 /// What is said where no springs suit steps of one size.
@@ -87,8 +93,6 @@ const LONGEST_PATH: usize = 58;
 const LONGEST_CHECK: usize = 2;
 /// The row of the table of peaks that gives way to warnings.
 const IMPACTS: &str = "impacts";
-/// What a record's line has of a vertical motion that is taken.
-const VERTICAL: &str = "; vertical ";
 /// What a doubt of what was given begins with.
 const CHECK: &str = "CHECK     ";
 /// What the report's line begins with.
@@ -144,6 +148,7 @@ pub fn screen(run: &Run, written: &Written) -> String {
         room(lines) >= if *level == 0 { wanted } else { least } || level + 1 == CROWDING.len()
     };
     let mut lines = answers.enumerate().find(fits).map(|(_, lines)| lines).unwrap_or_default();
+    lines.truncate(LINES - 1);
     let left_out = tell(&warnings, &mut lines);
     if written.report || left_out > 0 {
         lines.push(written.report_line(left_out, sheet_of(run)));
@@ -160,17 +165,14 @@ fn sheet_of(run: &Run) -> Option<&str> {
 /// All but the warnings.
 fn answer(run: &Run, written: &Written, crowding: Crowding) -> Vec<String> {
     let mut lines = Vec::new();
-    taken(run, written, crowding.assumed, &mut lines);
+    taken(run, written, crowding, &mut lines);
     if crowding.empty_line {
         lines.push(String::new());
     }
     at_most(crowding.sentence, &mut lines, "", &run.verdict());
-    let peaks = peak_table(run).into_iter().flat_map(|table| friction_beside(table).lines());
-    let kept = |line: &String| {
-        !line.starts_with(LARGEST) && (crowding.all_peaks || !line.starts_with(IMPACTS))
-    };
-    lines.extend(peaks.filter(kept));
-    lines.extend(forces::lines(run));
+    let peaks = peak_table(run).map(|table| of_screen(table, crowding.all_peaks).lines());
+    lines.extend(peaks.into_iter().flatten());
+    lines.extend(forces::lines(run, crowding.tight));
     springs(run, &mut lines);
     if let Some(accuracy) = &run.accuracy {
         let parts = accuracy.short(crowding.measured, run.taken.record.is_some());
@@ -190,37 +192,39 @@ fn answer(run: &Run, written: &Written, crowding: Crowding) -> Vec<String> {
     lines
 }
 
-/// The table of peaks with the friction needed beside the impacts, which have no difference.
-fn friction_beside(mut table: Table) -> Table {
+/// The table of peaks without what the report alone has; with the friction needed beside the
+/// impacts, which have no difference, if there is room for both.
+fn of_screen(mut table: Table, impacts: bool) -> Table {
     let friction = table.rows.pop_if(|row| row.first().is_some_and(|name| name == FRICTION));
-    let impacts = table.rows.last_mut().filter(|row| row[0].starts_with(IMPACTS));
-    match (friction, impacts) {
-        (Some(friction), Some(impacts)) if table.head.len() > DIFFERENCE => {
-            impacts[DIFFERENCE] = friction[..2].join(" ");
+    let last = table.rows.last_mut().filter(|row| row[0].starts_with(IMPACTS));
+    match (friction, last) {
+        (Some(friction), Some(last)) if table.head.len() > DIFFERENCE => {
+            last[DIFFERENCE] = friction[..2].join(" ");
         }
         (friction, _) => table.rows.extend(friction),
     }
+    let left_out =
+        |name: &str| name.starts_with(LARGEST) || (!impacts && name.starts_with(IMPACTS));
+    table.rows.retain(|row| !left_out(&row[0]));
     table
 }
 
-fn taken(run: &Run, written: &Written, most: usize, lines: &mut Vec<String>) {
+fn taken(run: &Run, written: &Written, crowding: Crowding, lines: &mut Vec<String>) {
+    let two = if crowding.tight { 1 } else { 2 };
     let fact = |name: &str| {
         run.taken.facts.iter().find(|(fact, _)| fact.starts_with(name)).map(|(_, value)| value)
     };
     let first = fact("first lifts").map_or(String::new(), |time| format!(", at {time}"));
-    let vertical = match run.taken.short_record.as_ref().is_some_and(|r| r.contains(VERTICAL)) {
-        true => " (1 + vertical in g)",
-        false => "",
-    };
+    let vertical = if run.taken.vertical { " (1 + vertical in g)" } else { "" };
     let lifts = fact("lifts")
         .map_or(String::new(), |value| format!("; lifts beyond {value}{vertical}{first}"));
-    at_most(2, lines, "", &format!("{}{lifts}", run.taken.structure));
+    at_most(two, lines, "", &format!("{}{lifts}", run.taken.structure));
     if let Some(record) = &run.taken.short_record {
         let name = if record.chars().count() > WIDTH { "record " } else { "" };
-        at_most(2, lines, "", record.strip_prefix(name).unwrap_or(record));
+        at_most(two, lines, "", record.strip_prefix(name).unwrap_or(record));
     }
     for filed in run.remarks().filter(|filed| is_doubt(filed)) {
-        lines.extend(Warned::of(CHECK, filed).in_lines(LONGEST_CHECK));
+        lines.extend(Warned::of(CHECK, filed).in_lines(LONGEST_CHECK.min(two)));
     }
     let all: Vec<String> =
         run.taken.assumed.iter().map(|a| format!("{} ({})", a.what, a.key)).collect();
@@ -233,7 +237,7 @@ fn taken(run: &Run, written: &Written, most: usize, lines: &mut Vec<String>) {
         };
         let mut some = Vec::new();
         wrap(&mut some, "assumed: ", &(all[..shown].join("; ") + &rest));
-        if some.len() <= most {
+        if some.len() <= crowding.assumed {
             lines.extend(some);
             return;
         }
@@ -244,7 +248,7 @@ fn taken(run: &Run, written: &Written, most: usize, lines: &mut Vec<String>) {
             0 => String::new(),
             n => format!("; and {n} more: {place}"),
         };
-        wrap(lines, "assumed: ", &(first.clone() + &rest));
+        at_most(two, lines, "assumed: ", &(first.clone() + &rest));
     }
 }
 
@@ -306,7 +310,7 @@ fn next(run: &Run, written: &Written, crowding: Crowding, lines: &mut Vec<String
             at_most(crowding.program, lines, &name, &program.line(crowding.program > 1));
             let settings = program.settings(crowding.program > 1);
             if !settings.is_empty() {
-                at_most(2, lines, "  set to  ", &settings);
+                at_most(if crowding.tight { 1 } else { 2 }, lines, "  set to  ", &settings);
             }
             if written.decks && program.deck_of_even_steps {
                 let deck = format!("python3 {}", written.file(&format!("decks/{EVEN_DECK}")));

@@ -180,7 +180,6 @@ impl ElasticRun {
             energy_residual: fem.energy_residual,
             near: answer.ensemble,
         };
-        let foretold = on_record.foretold_s;
         let bearing = ForceQuantities::new(&assembled, &answer, record.dt);
         let mut parameters = ElasticParameters {
             on_record: Some(on_record),
@@ -213,7 +212,7 @@ impl ElasticRun {
             row.on_record = on_record;
         }
         run.parameters.design_forces =
-            Some(design_forces(&run.assembled.structure, &run.answer.design).foretold_to(foretold));
+            Some(design_forces(&run.assembled.structure, &run.answer.design));
         run.parameters.findings = filed(run.parts().findings(&run.parameters));
         run.parameters.peaks = Some(run.parts().foretold_peaks(&run.parameters.findings));
         let until = predictable_to(&run.parameters.findings);

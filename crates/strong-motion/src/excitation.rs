@@ -100,8 +100,7 @@ impl Excitation {
         let step = self.record.dt;
         let peak = self.record.truncated(self.duration()).pga_time();
         let when = format!(" at {} s", seconds(peak));
-        let digits = Digits { seconds: |t| seconds(t).to_string(), peaks: |x| format!("{x:.4}") };
-        self.told(&from, &format!(": {samples} samples of {step} s"), &when, &digits)
+        self.told(&from, &format!(": {samples} samples of {step} s"), &when, false)
     }
 
     /// The same, shorter: without the file's path, the number of samples, and when the peak is; of
@@ -111,23 +110,25 @@ impl Excitation {
             crate::Source::File { units, .. } => units.to_string(),
             _ => "embedded".into(),
         };
-        let step = format!(", step {} s", self.record.dt);
-        let four = |x: f64| significant(x, 4);
-        let line = self.told(&from, &step, "", &Digits { seconds: four, peaks: four });
-        // "first 8 s of 12 s"
-        line.replace(", first ", ", ").replace(" s of ", " of ")
+        self.told(&from, &format!(", step {} s", self.record.dt), "", true)
     }
 
-    fn told(&self, from: &str, samples: &str, when: &str, digits: &Digits) -> String {
+    fn told(&self, from: &str, samples: &str, when: &str, short: bool) -> String {
         let whole = &self.record;
         let used = whole.truncated(self.duration());
-        let part = if used.len() < whole.len() {
-            let [part, all] = [&used, whole].map(|record| (digits.seconds)(record.duration()));
-            format!("first {part} s of {all} s")
-        } else {
-            format!("all {} s", (digits.seconds)(whole.duration()))
+        let time = |record: &Record| match short {
+            true => significant(record.duration(), 4),
+            false => seconds(record.duration()).to_string(),
         };
-        let peak = |g: f64| (digits.peaks)(g * self.scale.abs());
+        let part = match used.len() < whole.len() {
+            true if short => format!("{} of {} s", time(&used), time(whole)),
+            true => format!("first {} s of {} s", time(&used), time(whole)),
+            false => format!("all {} s", time(whole)),
+        };
+        let peak = |g: f64| match g * self.scale.abs() {
+            g if short => significant(g, 4),
+            g => format!("{g:.4}"),
+        };
         let vertical = used.vertical.as_ref().map_or_else(String::new, |up| {
             format!("; vertical {}, peak {} g", up.name, peak(up.peak_g()))
         });
@@ -138,14 +139,6 @@ impl Excitation {
             peak(used.pga_g())
         )
     }
-}
-
-/// How numbers of a line are written.
-struct Digits {
-    /// Times (s).
-    seconds: fn(f64) -> String,
-    /// Peaks (g).
-    peaks: fn(f64) -> String,
 }
 
 /// Seconds without the rounding of n dt.

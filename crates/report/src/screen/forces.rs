@@ -27,8 +27,8 @@ const GROUND: &str = " on rigid ground";
 /// Blanks before a cell, and between two.
 const INDENT: usize = 2;
 
-/// A head, and the forces below it; none without a record.
-pub(super) fn lines(run: &Run) -> Vec<String> {
+/// A head, and the forces below it, two to a line where it is `tight`; none without a record.
+pub(super) fn lines(run: &Run, tight: bool) -> Vec<String> {
     let Some(forces) = &run.design_forces else { return Vec::new() };
     // an asterisk where some are, a word where all are
     let doubted = |one: (ForceName, DesignForce)| one.1.holds && !Run::foretells(&one.1);
@@ -71,7 +71,8 @@ pub(super) fn lines(run: &Run) -> Vec<String> {
     let more = all.first().is_some_and(|(_, force)| {
         force.held.is_some() || (force.together.is_some() && !fits(Told::Axial))
     });
-    let lone = if all.len() % 2 == 1 || (more && !fits(Told::Both)) { 1 } else { 0 };
+    let odd = all.len() % 2 == 1;
+    let lone = usize::from(odd || (more && !tight && !fits(Told::Both)));
     let first = |told: Told| {
         cells(told).into_iter().take(lone).map(|cell| format!("  {}", cell.join("  ")))
     };

@@ -87,15 +87,13 @@ fn what_was_left_out_is_told_with_what_it_would_change() {
         change("moment at column base", 10.8e6, 20.9e6),
         change("another moment", 6e6, 2e6),
     ];
-    let finding = Finding::VerticalLeftOut {
-        vertical_g: 1.84,
-        horizontal_g: 0.99,
-        overturns_s: None,
-        changes,
-        checked: true,
+    let told = |changes: Vec<PeakChange>, checked: bool| {
+        let (vertical_g, horizontal_g, overturns_s) = (1.84, 0.99, None);
+        Finding::VerticalLeftOut { vertical_g, horizontal_g, overturns_s, changes, checked }
+            .message()
     };
     let left_out = "vertical motion (1.84 g) left out; with it";
-    assert_eq!(finding.message(), format!("{left_out}: moment at column base 20.9 MN m"));
+    assert_eq!(told(changes, true), format!("{left_out}: moment at column base 20.9 MN m"));
     // the axial force in any case, of forces that were not measured to be the structure's
     let changes = vec![
         change("axial force", 30e6, 35.6e6),
@@ -103,15 +101,8 @@ fn what_was_left_out_is_told_with_what_it_would_change() {
         change("tension", 1.4e6, 7.4e6),
         change("column shear", 1.0e6, 1.1e6),
     ];
-    let finding = Finding::VerticalLeftOut {
-        vertical_g: 1.84,
-        horizontal_g: 0.99,
-        overturns_s: None,
-        changes,
-        checked: false,
-    };
     assert_eq!(
-        finding.message(),
+        told(changes, false),
         format!(
             "{left_out} (unchecked): tension 7.4 MN, moment at column base 20.9 MN m, axial force \
                 35.6 MN"
