@@ -19,8 +19,6 @@ const NAME: usize = 9;
 
 /// A tolerance above which one suspects a misprint.
 const LARGE: f64 = 0.01;
-/// That it is none.
-const MEANT: &str = " (meant so large)";
 
 /// Springs for a program with fixed time steps.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -65,11 +63,14 @@ pub struct ProgramSetting {
     /// Both, for a screen.
     #[serde(skip)]
     short: String,
+    /// Whether it looks like a misprint and is none.
+    #[serde(skip)]
+    meant: bool,
 }
 
 impl ProgramSetting {
     fn new(name: &'static str, value: String, short: String) -> Self {
-        Self { name, value, short }
+        Self { name, value, short, meant: false }
     }
 }
 
@@ -108,12 +109,9 @@ impl ProgramReport {
         let tolerance = match row.converged {
             ProgramTest::UnbalanceOverWeight(value) => {
                 let x = significant(value, 3);
-                let meant = if value > LARGE { MEANT } else { "" };
-                ProgramSetting::new(
-                    "iteration convergence tolerance, relative",
-                    x.clone(),
-                    format!("tolerance {x}{meant}"),
-                )
+                let name = "iteration convergence tolerance, relative";
+                let short = format!("tolerance {x}");
+                ProgramSetting { meant: value > LARGE, ..ProgramSetting::new(name, x, short) }
             }
             ProgramTest::IncrementM(x) => {
                 let x = format!("{} m", significant(x, 3));
@@ -176,10 +174,12 @@ impl ProgramReport {
 
     /// For a screen: what the program is to be set to; nothing of springs that are not to be used.
     pub(crate) fn settings(&self, room: bool) -> String {
-        let all = self.set_to.iter().map(|s| s.short.as_str());
-        let set_to: Vec<&str> = all.filter(|short| self.usable && !short.is_empty()).collect();
-        let set_to = set_to.join(", ");
-        if room { set_to } else { set_to.replace(MEANT, "") }
+        let told = self.set_to.iter().filter(|s| self.usable && !s.short.is_empty());
+        let one = |s: &ProgramSetting| match s.meant && room {
+            true => format!("{} (meant so large)", s.short),
+            false => s.short.clone(),
+        };
+        told.map(one).collect::<Vec<_>>().join(", ")
     }
 
     /// For a report.
@@ -271,7 +271,8 @@ fn errors<U>(row: &ProgramRow<U>, (peaks, late): (&str, bool), room: bool) -> St
         suites.iter().fold([0; 2], |[lost, all], (_, e)| [lost + e.lost, all + e.histories]);
     let fails = match lost {
         0 => nothing(),
-        lost => format!("fails on {lost} of {all} motions; "),
+        lost if room => format!("fails on {lost} of {all} motions; "),
+        lost => format!("fails on {lost} of {all}; "),
     };
     let [ends, top] = row.on_record.map_or([None; 2], |on| [on.gives_up_s, on.top]);
     let ends = ends.map_or(nothing(), |s| {
@@ -286,7 +287,6 @@ fn errors<U>(row: &ProgramRow<U>, (peaks, late): (&str, bool), room: bool) -> St
         (false, false) => format!("here top {}; ", signed(top)),
     });
     if !room {
-        let fails = fails.replace(" motions", "");
         return format!("{ends}{fails}{here}{peaks} {median} (median), {ninety} (90 %)");
     }
     // how many there are is said with those that fail

@@ -20,6 +20,7 @@ use fixed_steps::FixedStepHistory;
 use limits::springs_findings;
 use peaks::{peaks, peaks_to};
 use rocking::{
+    housner::RockingOutcome,
     members::Members,
     regime,
     structure::{Kind, Structure},
@@ -198,7 +199,7 @@ impl RigidRun {
             quantity: "friction needed".into(),
             unit: String::new(),
             without: self.report.friction_needed(),
-            with: friction_needed(&needed, true),
+            with: friction_needed(&needed, both.rocking.outcome != RockingOutcome::NeverMoved),
         });
         let fell = |both: &ModelComparison| {
             both.matched.overturned_housner_s.or(both.matched.overturned_fem_s)
