@@ -12,10 +12,13 @@ type PeakRow =
 pub(crate) const FRICTION: &str = "friction needed";
 /// The column of differences.
 pub(crate) const DIFFERENCE: usize = 3;
-/// The row of what feet have moved when the top's displacement is largest.
-const MOVED: &str = "  of it feet moved";
+/// The row of how far from where they stood feet have landed, when the top's displacement is
+/// largest.
+const MOVED: &str = "  of it feet landed elsewhere";
 /// What rows of parts that are largest at times of their own begin with.
 pub(crate) const LARGEST: &str = "largest by";
+/// What rows of parts of the top's displacement begin with.
+const PART: &str = "  of it";
 /// Share of the top's displacement below which it is not said.
 const NOT_SAID: f64 = 0.02;
 
@@ -28,8 +31,13 @@ const ROWS: [PeakRow; 9] = [
     ("largest by rocking", |p| p.bending_m.map(|_| p.rocking_m), meters, |t| Some(t.rocking_s)),
     ("largest by bending", |p| p.bending_m, meters, |t| t.bending_s),
     ("uplift", |p| Some(p.uplift_m), meters, |t| Some(t.uplift_s)),
-    ("impacts", |p| Some(p.impacts as f64), |x| format!("{x:.0}"), |_| None),
+    ("impacts", |p| Some(p.impacts as f64), |x| format!("{x:.0}"), to_the_end),
 ];
+
+/// Impacts are counted over all of the history.
+fn to_the_end(_: &PeakTimes) -> Option<f64> {
+    Some(f64::INFINITY)
+}
 
 fn at_top(times: &PeakTimes) -> Option<f64> {
     Some(times.top_displacement_s)
@@ -37,6 +45,8 @@ fn at_top(times: &PeakTimes) -> Option<f64> {
 
 /// Below this a displacement is rounding (m).
 const ROUNDING_M: f64 = 1e-12;
+/// Below this part of the top's displacement, too: what a part of it is told to at most.
+const ROUNDING: f64 = 1e-5;
 
 /// Without rounding.
 fn exact(x: f64) -> f64 {
@@ -77,7 +87,11 @@ pub fn peak_table(run: &Run) -> Option<Table> {
     let mut head = vec![largest.to_string(), reference, on_springs.into(), "difference".into()];
     head.extend(with.map(|_| "with members".into()));
     let row = |(name, of, words, when): PeakRow| {
-        let (a, b) = (of(&pair.reference)?, of(&pair.springs)?);
+        let part = |peaks: &Peaks| {
+            let rounding = |x: &f64| x.abs() < ROUNDING * peaks.top_displacement_m;
+            of(peaks).map(|x| if name.starts_with(PART) && rounding(&x) { 0.0 } else { x })
+        };
+        let (a, b) = (part(&pair.reference)?, part(&pair.springs)?);
         // feet that land where they stood move by the height of the lift times the rotation alone
         let little = NOT_SAID * pair.reference.top_displacement_m;
         if name == MOVED && a.abs().max(b.abs()) < little {
@@ -129,7 +143,7 @@ const SUMMARY: [SummaryRow; 7] = [
     ("largest feet moved", |p| p.feet_moved_m, "m", |t| t.feet_moved_s),
     ("drift ratio", |p| Some(p.drift_ratio), "1", at_top),
     ("uplift", |p| Some(p.uplift_m), "m", |t| Some(t.uplift_s)),
-    ("impacts", |p| Some(p.impacts as f64), "1", |_| None),
+    ("impacts", |p| Some(p.impacts as f64), "1", to_the_end),
 ];
 
 /// `summary.csv`: largest displacements and design forces as plain numbers, SI units; cells of what
@@ -151,6 +165,7 @@ pub fn summary(run: &Run) -> Table {
             let (a, b) = (of(&pair.reference), of(&springs));
             let time = springs.times.as_ref().and_then(when);
             let sure = time.map(|time| until.is_none_or(|until| time <= until));
+            let time = time.filter(|time| time.is_finite());
             if a.or(b).is_some() {
                 row(name, unit, [a, b, None, time], sure);
             }

@@ -45,8 +45,8 @@ pub(crate) fn sections(run: &Run) -> Vec<Section> {
             text: vec![
                 "Of the highest point, against the ground. By rocking: what the rotation of its \
                     base alone moves it; by bending: how far it is across the axis of its base; \
-                    feet moved: how far the feet of its base are from where they stood. Each is \
-                    the largest of all bases, at its own time."
+                    feet landed elsewhere: how far the feet of its base are from where they stood, \
+                    without sliding. Each is the largest of all bases, at its own time."
                     .into(),
             ],
             table: Some(table),

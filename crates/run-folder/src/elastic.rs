@@ -137,7 +137,7 @@ fn deck_of(
         samples: motion.len(),
         top: (top, &motion),
         alpha: assembled.structure.body().alpha(),
-        frequency_hz: assembled.structure.frequency_hz(),
+        frequency_hz: assembled.structure.fixed_base_frequency_hz(),
         accuracy,
         program,
     }

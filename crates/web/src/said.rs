@@ -52,7 +52,7 @@ impl Working {
     pub(crate) fn of_elastic(assembled: &Assembled) -> Self {
         let own = Self::of(&assembled.structure.body());
         let uplift_g = assembled.uplift_g().unwrap_or(own.uplift_g);
-        Self { uplift_g, frequency_hz: Some(assembled.structure.frequency_hz()), ..own }
+        Self { uplift_g, frequency_hz: Some(assembled.structure.fixed_base_frequency_hz()), ..own }
     }
 }
 

@@ -151,6 +151,7 @@ fn finite_elements_have_the_frequency_of_the_closed_form() {
     let portal = read(text).unwrap();
     // columns' shortening and the rotational inertia of the tops are left out
     assert_relative_eq!(lowest(&portal), portal.frequency_hz(), max_relative = 3e-2);
+    assert_eq!(lowest(&portal), portal.fixed_base_frequency_hz());
 }
 
 /// E = 30 GPa, nu = 0.2, 5/6 of the area: GA_s = 5/6 EA/2.4. Cantilevers give by L^3/(3 EI) +

@@ -175,7 +175,7 @@ fn taken(parameters: &ElasticParameters) -> Taken {
     fact("restitution e of the rigid body, equation 2", significant(body.restitution(), 4));
     fact(
         "frequency fixed to the ground",
-        format!("{} Hz", significant(structure.frequency_hz(), 4)),
+        format!("{} Hz", significant(structure.fixed_base_frequency_hz(), 4)),
     );
     fact(
         "its weight shortens the columns by",
@@ -193,7 +193,7 @@ fn taken(parameters: &ElasticParameters) -> Taken {
     let text = format!(
         "{}, {mass}, {} Hz if fixed",
         title(structure),
-        significant(structure.frequency_hz(), 3)
+        significant(structure.fixed_base_frequency_hz(), 3)
     );
     Taken::new(text, facts)
 }
