@@ -158,9 +158,9 @@ fn candidates(rounds: usize) -> Skip {
         let mut best = (f64::INFINITY, 0);
         for (i, springs) in springs.iter().enumerate() {
             let limit = if abandon { best.0 } else { f64::INFINITY };
-            let (error, abandoned) = benchmark.error(springs, limit, Control::search());
-            if !abandoned && error < best.0 {
-                best = (error, i);
+            let judged = benchmark.judge(springs, limit, Control::search());
+            if !judged.abandoned && judged.error < best.0 {
+                best = (judged.error, i);
             }
         }
         best

@@ -186,7 +186,7 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
         show: &mut impl FnMut(usize, &M::Vector) -> ControlFlow<()>,
     ) -> (FixedStepOutcome, FixedStepWork) {
         let mut work = FixedStepWork::default();
-        let mut iterates = Iterates::new(&motion.q);
+        let mut iterates = Iterates::new(self.model, &motion.q);
         let mut shown = 0;
         let last = self.accel.len();
         let count = ((last.saturating_sub(1)) as f64 * self.dt / self.settings.step - SAME)
@@ -257,7 +257,7 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
         pace: &mut SubstepPace,
         motion: &mut Kinematics<M::Vector>,
         feet: &mut M::Feet,
-        iterates: &mut Iterates<M::Vector>,
+        iterates: &mut Iterates<M>,
         work: &mut FixedStepWork,
     ) -> Result<(), GaveUp> {
         let longest = self.longest(pace, motion);
@@ -276,7 +276,7 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
                 motion.advance(&step, &iterates.change);
                 if step.forces_at() != step.size {
                     let part = step.forces_at() / step.size;
-                    self.model.meet_end(&iterates.trial.q, part, &motion.q, feet);
+                    self.model.meet_end(&iterates.places, part, &motion.q, feet);
                 }
                 pace.touched |= feet.as_ref().iter().any(FixedFoot::has_changed);
                 feet.as_mut().iter_mut().for_each(FixedFoot::commit);

@@ -12,7 +12,7 @@
 use dynamics::spring::{Chain, Springs};
 use frames::{
     Mechanics,
-    frame::{EquilibriumError, Frame, PlaceOnNode, Support},
+    frame::{EquilibriumError, Frame, PlaceOnNode, Reach, Support},
 };
 use nalgebra::{DMatrix, DVectorViewMut, Dyn, LU};
 
@@ -76,6 +76,7 @@ impl<'a> FixedStepFrame<'a> {
 impl FixedStepModel for FixedStepFrame<'_> {
     type Vector = Vec<f64>;
     type Feet = Vec<FixedFoot>;
+    type Places = Vec<Reach>;
     type Factor = FrameFactor;
 
     fn standing(&self) -> Result<(Vec<f64>, Vec<FixedFoot>), EquilibriumError> {
@@ -94,32 +95,40 @@ impl FixedStepModel for FixedStepFrame<'_> {
         Ok((q, feet))
     }
 
-    fn meet(&self, q: &Vec<f64>, feet: &mut Vec<FixedFoot>) {
-        for ((at, place, unit), foot) in self.corners().zip(feet) {
-            let [x, z] = place.reach(q).place;
+    fn places(&self, q: &Vec<f64>) -> Vec<Reach> {
+        self.frame.places().iter().map(|place| place.reach(q)).collect()
+    }
+
+    fn meet(&self, places: &Vec<Reach>, q: &Vec<f64>, feet: &mut Vec<FixedFoot>) {
+        for (((at, _, unit), reach), foot) in self.corners().zip(places).zip(feet) {
+            let [x, z] = reach.place;
             foot.meet(unit, q[at + 1] - z, x - q[at]);
         }
     }
 
-    fn meet_after(&self, before: &Vec<f64>, q: &Vec<f64>, feet: &mut Vec<FixedFoot>) {
+    fn meet_after(
+        &self,
+        (places, before): (&Vec<Reach>, &Vec<f64>),
+        q: &Vec<f64>,
+        feet: &mut Vec<FixedFoot>,
+    ) {
         let change: Vec<f64> = q.iter().zip(before).map(|(q, before)| q - before).collect();
-        for ((at, place, unit), foot) in self.corners().zip(feet) {
-            let reach = place.reach(before);
-            let [dx, dz] = place.velocity(&reach, &change);
+        for (((at, place, unit), reach), foot) in self.corners().zip(places).zip(feet) {
+            let [dx, dz] = place.velocity(reach, &change);
             foot.meet(unit, q[at + 1] - reach.place[1] - dz, reach.place[0] + dx - q[at]);
         }
     }
 
-    fn meet_end(&self, at: &Vec<f64>, w: f64, q: &Vec<f64>, feet: &mut Vec<FixedFoot>) {
-        for ((absorber, place, unit), foot) in self.corners().zip(feet) {
-            let [x, z] = foot.goes_on(place.reach(at).place, w);
-            foot.meet(unit, q[absorber + 1] - z, x - q[absorber]);
+    fn meet_end(&self, places: &Vec<Reach>, w: f64, q: &Vec<f64>, feet: &mut Vec<FixedFoot>) {
+        for (((at, _, unit), reach), foot) in self.corners().zip(places).zip(feet) {
+            let [x, z] = foot.goes_on(reach.place, w);
+            foot.meet(unit, q[at + 1] - z, x - q[at]);
         }
     }
 
     fn unbalance(
         &self,
-        trial: &Trial<Vec<f64>>,
+        (trial, places): (&Trial<Vec<f64>>, &Vec<Reach>),
         feet: &Vec<FixedFoot>,
         ground: [f64; 2],
         out: &mut Vec<f64>,
@@ -129,10 +138,9 @@ impl FixedStepModel for FixedStepFrame<'_> {
         self.frame.momentum(&a[..n], &mut inertia);
         self.frame.forces(&q[..n], &v[..n], ground, &mut out[..n]);
         out.iter_mut().zip(inertia).for_each(|(out, inertia)| *out -= inertia);
-        for ((at, place, unit), foot) in self.corners().zip(feet) {
-            let reach = place.reach(q);
+        for (((at, place, unit), reach), foot) in self.corners().zip(places).zip(feet) {
             let force = foot.force(unit, q[at + 1] - reach.place[1], reach.place[0] - q[at]);
-            place.push(&reach, force, out);
+            place.push(reach, force, out);
             for (k, chain) in [&unit.horizontal, &unit.vertical].into_iter().enumerate() {
                 let i = at + k;
                 out[i] =
@@ -143,7 +151,7 @@ impl FixedStepModel for FixedStepFrame<'_> {
 
     fn factor(
         &self,
-        trial: &Trial<Vec<f64>>,
+        (trial, places): (&Trial<Vec<f64>>, &Vec<Reach>),
         feet: &Vec<FixedFoot>,
         weights: &TangentWeights,
     ) -> Option<FrameFactor> {
@@ -154,8 +162,7 @@ impl FixedStepModel for FixedStepFrame<'_> {
             self.frame.mass_matrix() * weights.mass + c * weights.damping + k * weights.stiffness;
         let (mut units, mut slopes) =
             (Vec::with_capacity(feet.len()), Vec::with_capacity(feet.len()));
-        for ((at, place, unit), foot) in self.corners().zip(feet) {
-            let reach = place.reach(q);
+        for (((at, place, unit), reach), foot) in self.corners().zip(places).zip(feet) {
             let both = [
                 CondensedUnit::new(&unit.horizontal, foot.closed && foot.holds, weights),
                 CondensedUnit::new(&unit.vertical, foot.closed, weights),
@@ -198,8 +205,7 @@ impl FixedStepModel for FixedStepFrame<'_> {
     }
 
     fn gaps(&self, q: &Vec<f64>, v: &Vec<f64>, mut each: impl FnMut(f64, f64)) {
-        for (at, place, _) in self.corners() {
-            let reach = place.reach(q);
+        for ((at, place, _), reach) in self.corners().zip(self.places(q)) {
             each(q[at + 1] - reach.place[1], v[at + 1] - place.velocity(&reach, v)[1]);
         }
     }

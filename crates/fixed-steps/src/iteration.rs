@@ -51,26 +51,29 @@ impl Iteration {
 }
 
 /// Room for the iteration's vectors, used again in every step.
-#[derive(Clone, Debug)]
-pub(crate) struct Iterates<V> {
+pub(crate) struct Iterates<M: FixedStepModel> {
     /// From the step's begin (m, rad).
-    pub change: V,
+    pub change: M::Vector,
     /// Where its forces are taken.
-    pub trial: Trial<V>,
-    before: V,
-    unbalance: V,
-    increment: V,
+    pub trial: Trial<M::Vector>,
+    /// The feet's places there.
+    pub places: M::Places,
+    before: (M::Places, M::Vector),
+    unbalance: M::Vector,
+    increment: M::Vector,
     /// Iterations so far, of all steps.
     pub count: usize,
 }
 
-impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> Iterates<V> {
-    pub(crate) fn new(like: &V) -> Self {
+impl<M: FixedStepModel> Iterates<M> {
+    pub(crate) fn new(model: &M, like: &M::Vector) -> Self {
         let trial = Trial { q: like.clone(), v: like.clone(), a: like.clone() };
+        let places = model.places(like);
         Self {
             change: like.clone(),
             trial,
-            before: like.clone(),
+            before: (places.clone(), like.clone()),
+            places,
             unbalance: like.clone(),
             increment: like.clone(),
             count: 0,
@@ -79,12 +82,12 @@ impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> Iterates<V> {
 
     /// Iterate to the end of a step; whether it has arrived. `feet` are left as the last trial met
     /// them, `change` is the step's.
-    pub(crate) fn arrives<M: FixedStepModel<Vector = V>>(
+    pub(crate) fn arrives(
         &mut self,
         model: &M,
         how: &Iteration,
-        from: &Kinematics<V>,
-        step: &StepKinematics<V>,
+        from: &Kinematics<M::Vector>,
+        step: &StepKinematics<M::Vector>,
         feet: &mut M::Feet,
         ground: [f64; 2],
     ) -> bool {
@@ -94,13 +97,13 @@ impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> Iterates<V> {
 
     #[allow(clippy::too_many_arguments)]
     #[inline(always)]
-    fn phase<M: FixedStepModel<Vector = V>>(
+    fn phase(
         &mut self,
         model: &M,
         how: &Iteration,
         most: usize,
         newton: bool,
-        (from, step): (&Kinematics<V>, &StepKinematics<V>),
+        (from, step): (&Kinematics<M::Vector>, &StepKinematics<M::Vector>),
         feet: &mut M::Feet,
         ground: [f64; 2],
     ) -> bool {
@@ -113,7 +116,7 @@ impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> Iterates<V> {
         let mut factor = None;
         for _ in 0..most {
             if newton || factor.is_none() {
-                factor = model.factor(&self.trial, feet, &weights);
+                factor = model.factor((&self.trial, &self.places), feet, &weights);
             }
             let Some(factor) = &factor else { return false };
             self.count += 1;
@@ -123,7 +126,7 @@ impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> Iterates<V> {
                 *change += by;
             }
             self.look(model, from, step, feet, ground, false);
-            let norm = |x: &V| x.as_ref().iter().map(|x| x * x).sum::<f64>().sqrt();
+            let norm = |x: &M::Vector| x.as_ref().iter().map(|x| x * x).sum::<f64>().sqrt();
             let (left, below) = match how.test {
                 ConvergenceTest::Increment(below) => (norm(&self.increment), below),
                 ConvergenceTest::Unbalance(below) => (norm(&self.unbalance), below),
@@ -144,26 +147,29 @@ impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> Iterates<V> {
 
     /// The trial, its contacts and its unbalance.
     #[inline(always)]
-    fn look<M: FixedStepModel<Vector = V>>(
+    fn look(
         &mut self,
         model: &M,
-        from: &Kinematics<V>,
-        step: &StepKinematics<V>,
+        from: &Kinematics<M::Vector>,
+        step: &StepKinematics<M::Vector>,
         feet: &mut M::Feet,
         ground: [f64; 2],
         first: bool,
     ) {
-        self.before.as_mut().copy_from_slice(self.trial.q.as_ref());
+        self.before.1.as_mut().copy_from_slice(self.trial.q.as_ref());
         step.trial(from, &self.change, &mut self.trial);
         let q = &self.trial.q;
+        std::mem::swap(&mut self.before.0, &mut self.places);
+        self.places = model.places(q);
         if !first {
-            model.meet_after(&self.before, q, feet);
+            model.meet_after((&self.before.0, &self.before.1), q, feet);
         } else if step.forces_at() == step.size {
-            model.meet(q, feet);
+            model.meet(&self.places, q, feet);
         } else {
             // a foot is where the last step left it
-            model.meet_end(q, f64::INFINITY, q, feet);
+            model.meet_end(&self.places, f64::INFINITY, q, feet);
         }
-        model.unbalance(&self.trial, feet, ground, &mut self.unbalance);
+        let trial = (&self.trial, &self.places);
+        model.unbalance(trial, feet, ground, &mut self.unbalance);
     }
 }

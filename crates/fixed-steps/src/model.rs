@@ -17,6 +17,8 @@ pub trait FixedStepModel {
     type Vector: Clone + AsRef<[f64]> + AsMut<[f64]>;
     /// Its feet: an array or a vector.
     type Feet: Clone + AsRef<[FixedFoot]> + AsMut<[FixedFoot]>;
+    /// Where its feet are at some q, and how they move with it.
+    type Places: Clone;
     /// A matrix, ready to solve with.
     type Factor;
 
@@ -26,24 +28,32 @@ pub trait FixedStepModel {
     /// It finds no rest.
     fn standing(&self) -> Result<(Self::Vector, Self::Feet), EquilibriumError>;
 
-    /// Decide which feet are closed at q.
-    fn meet(&self, q: &Self::Vector, feet: &mut Self::Feet);
+    /// The places of its feet at q.
+    fn places(&self, q: &Self::Vector) -> Self::Places;
+
+    /// Decide which feet are closed at q, where they are at `places`.
+    fn meet(&self, places: &Self::Places, q: &Self::Vector, feet: &mut Self::Feet);
 
     /// The same in a trial that follows another one: a foot is a node of its own at the end of a
     /// leg, and stands where the iteration's linear equations put it, not where the leg turns to.
-    fn meet_after(&self, before: &Self::Vector, q: &Self::Vector, feet: &mut Self::Feet);
+    fn meet_after(
+        &self,
+        before: (&Self::Places, &Self::Vector),
+        q: &Self::Vector,
+        feet: &mut Self::Feet,
+    );
 
-    /// The same at the end q of a step whose forces are those of `at`, a part w of the step: the
+    /// The same at the end q of a step whose forces count at `places`, a part w of the step: the
     /// foot's own node goes on along a straight line, from where it was at the step's begin (and
     /// stays there if w is infinite). Contacts do not change that step any more, but the anchors
     /// that the next one finds.
-    fn meet_end(&self, at: &Self::Vector, w: f64, q: &Self::Vector, feet: &mut Self::Feet);
+    fn meet_end(&self, places: &Self::Places, w: f64, q: &Self::Vector, feet: &mut Self::Feet);
 
-    /// Q + forces of the ground - M a of a trial, at ground acceleration (a_g, a_v) (m/s2), a_v
-    /// upwards; feet as they were met at its place. N, N m.
+    /// Q + forces of the ground - M a of a trial and its places, at ground acceleration (a_g, a_v)
+    /// (m/s2), a_v upwards; feet as they were met there. N, N m.
     fn unbalance(
         &self,
-        trial: &Trial<Self::Vector>,
+        trial: (&Trial<Self::Vector>, &Self::Places),
         feet: &Self::Feet,
         ground: [f64; 2],
         out: &mut Self::Vector,
@@ -52,7 +62,7 @@ pub trait FixedStepModel {
     /// M, C and K at a trial with these weights, factored; `None` if it is singular.
     fn factor(
         &self,
-        trial: &Trial<Self::Vector>,
+        trial: (&Trial<Self::Vector>, &Self::Places),
         feet: &Self::Feet,
         weights: &TangentWeights,
     ) -> Option<Self::Factor>;

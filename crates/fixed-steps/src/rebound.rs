@@ -52,27 +52,30 @@ impl FallingMass {
 impl FixedStepModel for FallingMass {
     type Vector = [f64; 2];
     type Feet = [FixedFoot; 1];
+    type Places = ();
     type Factor = Matrix2<f64>;
 
     fn standing(&self) -> Result<([f64; 2], [FixedFoot; 1]), EquilibriumError> {
         Ok(([0.0; 2], [FixedFoot::new(false, 0.0)]))
     }
 
-    fn meet(&self, q: &[f64; 2], feet: &mut [FixedFoot; 1]) {
+    fn places(&self, _: &[f64; 2]) {}
+
+    fn meet(&self, (): &(), q: &[f64; 2], feet: &mut [FixedFoot; 1]) {
         feet[0].closed = q[1] >= q[0];
     }
 
-    fn meet_after(&self, _: &[f64; 2], q: &[f64; 2], feet: &mut [FixedFoot; 1]) {
-        self.meet(q, feet);
+    fn meet_after(&self, _: (&(), &[f64; 2]), q: &[f64; 2], feet: &mut [FixedFoot; 1]) {
+        self.meet(&(), q, feet);
     }
 
-    fn meet_end(&self, _: &[f64; 2], _: f64, q: &[f64; 2], feet: &mut [FixedFoot; 1]) {
-        self.meet(q, feet);
+    fn meet_end(&self, (): &(), _: f64, q: &[f64; 2], feet: &mut [FixedFoot; 1]) {
+        self.meet(&(), q, feet);
     }
 
     fn unbalance(
         &self,
-        trial: &Trial<[f64; 2]>,
+        (trial, ()): (&Trial<[f64; 2]>, &()),
         feet: &[FixedFoot; 1],
         _: [f64; 2],
         out: &mut [f64; 2],
@@ -84,7 +87,7 @@ impl FixedStepModel for FallingMass {
 
     fn factor(
         &self,
-        _: &Trial<[f64; 2]>,
+        _: (&Trial<[f64; 2]>, &()),
         feet: &[FixedFoot; 1],
         w: &TangentWeights,
     ) -> Option<Matrix2<f64>> {

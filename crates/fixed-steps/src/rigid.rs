@@ -48,7 +48,7 @@ pub struct FixedStepBody {
 
 /// A foot's place, and its derivatives by theta.
 #[derive(Clone, Copy, Debug)]
-struct FootPlace {
+pub struct FootPlace {
     place: [f64; 2],
     slope: [f64; 2],
     curve: [f64; 2],
@@ -100,6 +100,7 @@ impl FixedStepBody {
 impl FixedStepModel for FixedStepBody {
     type Vector = [f64; N];
     type Feet = [FixedFoot; 2];
+    type Places = [FootPlace; 2];
     type Factor = BodyFactor;
 
     fn standing(&self) -> Result<([f64; N], [FixedFoot; 2]), EquilibriumError> {
@@ -109,31 +110,40 @@ impl FixedStepModel for FixedStepBody {
     }
 
     #[inline(always)]
-    fn meet(&self, q: &[f64; N], feet: &mut [FixedFoot; 2]) {
+    fn places(&self, q: &[f64; N]) -> [FootPlace; 2] {
         let turned = q[TH].sin_cos();
-        for (i, foot) in feet.iter_mut().enumerate() {
-            let [x, z] = self.foot(i, q, turned).place;
+        [self.foot(0, q, turned), self.foot(1, q, turned)]
+    }
+
+    #[inline(always)]
+    fn meet(&self, places: &[FootPlace; 2], q: &[f64; N], feet: &mut [FixedFoot; 2]) {
+        for (i, (foot, FootPlace { place: [x, z], .. })) in feet.iter_mut().zip(places).enumerate()
+        {
             let at = absorber(i);
             foot.meet(&self.springs, q[at + 1] - z, x - q[at]);
         }
     }
 
     #[inline(always)]
-    fn meet_after(&self, before: &[f64; N], q: &[f64; N], feet: &mut [FixedFoot; 2]) {
-        let turned = before[TH].sin_cos();
+    fn meet_after(
+        &self,
+        (places, before): (&[FootPlace; 2], &[f64; N]),
+        q: &[f64; N],
+        feet: &mut [FixedFoot; 2],
+    ) {
         let [dx, dz, turn] = [q[X] - before[X], q[Z] - before[Z], q[TH] - before[TH]];
-        for (i, foot) in feet.iter_mut().enumerate() {
-            let FootPlace { place: [x, z], slope, .. } = self.foot(i, before, turned);
+        for (i, (foot, at)) in feet.iter_mut().zip(places).enumerate() {
+            let FootPlace { place: [x, z], slope, .. } = at;
             let at = absorber(i);
             let [x, z] = [x + dx + slope[0] * turn, z + dz + slope[1] * turn];
             foot.meet(&self.springs, q[at + 1] - z, x - q[at]);
         }
     }
 
-    fn meet_end(&self, at: &[f64; N], w: f64, q: &[f64; N], feet: &mut [FixedFoot; 2]) {
-        let turned = at[TH].sin_cos();
-        for (i, foot) in feet.iter_mut().enumerate() {
-            let [x, z] = foot.goes_on(self.foot(i, at, turned).place, w);
+    #[inline(always)]
+    fn meet_end(&self, places: &[FootPlace; 2], w: f64, q: &[f64; N], feet: &mut [FixedFoot; 2]) {
+        for (i, (foot, place)) in feet.iter_mut().zip(places).enumerate() {
+            let [x, z] = foot.goes_on(place.place, w);
             let at = absorber(i);
             foot.meet(&self.springs, q[at + 1] - z, x - q[at]);
         }
@@ -142,7 +152,7 @@ impl FixedStepModel for FixedStepBody {
     #[inline(always)]
     fn unbalance(
         &self,
-        trial: &Trial<[f64; N]>,
+        (trial, places): (&Trial<[f64; N]>, &[FootPlace; 2]),
         feet: &[FixedFoot; 2],
         [ground, up]: [f64; 2],
         out: &mut [f64; N],
@@ -153,9 +163,8 @@ impl FixedStepModel for FixedStepBody {
         out[X] = -m * (ground + a[X]);
         out[Z] = -m * (GRAVITY + up + a[Z]);
         out[TH] = -self.body.inertia * a[TH];
-        let turned = q[TH].sin_cos();
-        for (i, foot) in feet.iter().enumerate() {
-            let FootPlace { place: [x, z], slope, .. } = self.foot(i, q, turned);
+        for (i, (foot, at)) in feet.iter().zip(places).enumerate() {
+            let FootPlace { place: [x, z], slope, .. } = at;
             let at = absorber(i);
             let [h, n] = foot.force(&self.springs, q[at + 1] - z, x - q[at]);
             out[X] += h;
@@ -173,7 +182,7 @@ impl FixedStepModel for FixedStepBody {
     #[inline(always)]
     fn factor(
         &self,
-        trial: &Trial<[f64; N]>,
+        (trial, places): (&Trial<[f64; N]>, &[FootPlace; 2]),
         feet: &[FixedFoot; 2],
         weights: &TangentWeights,
     ) -> Option<BodyFactor> {
@@ -184,9 +193,8 @@ impl FixedStepModel for FixedStepBody {
         let (mut xt, mut zt) = (0.0, 0.0);
         let mut units = [[CondensedUnit::default(); 2]; 2];
         let mut slopes = [[0.0; 2]; 2];
-        let turned = q[TH].sin_cos();
-        for (i, foot) in feet.iter().enumerate() {
-            let FootPlace { place: [x, z], slope, curve } = self.foot(i, q, turned);
+        for (i, (foot, at)) in feet.iter().zip(places).enumerate() {
+            let &FootPlace { place: [x, z], slope, curve } = at;
             let at = absorber(i);
             let [h, n] = foot.force(&self.springs, q[at + 1] - z, x - q[at]);
             let both = [
@@ -228,9 +236,7 @@ impl FixedStepModel for FixedStepBody {
     }
 
     fn gaps(&self, q: &[f64; N], v: &[f64; N], mut each: impl FnMut(f64, f64)) {
-        let turned = q[TH].sin_cos();
-        for i in 0..2 {
-            let FootPlace { place, slope, .. } = self.foot(i, q, turned);
+        for (i, FootPlace { place, slope, .. }) in self.places(q).into_iter().enumerate() {
             let at = absorber(i) + 1;
             each(q[at] - place[1], v[at] - v[Z] - slope[1] * v[TH]);
         }
@@ -275,8 +281,9 @@ mod tests {
         let (q, mut feet) = model.standing().unwrap();
         let still = Trial { q, v: [0.0; N], a: [0.0; N] };
         let mut out = [0.0; N];
-        model.meet(&q, &mut feet);
-        model.unbalance(&still, &feet, [0.0; 2], &mut out);
+        let places = model.places(&q);
+        model.meet(&places, &q, &mut feet);
+        model.unbalance((&still, &places), &feet, [0.0; 2], &mut out);
         assert!(out.iter().all(|f| f.abs() < 1e-9 * model.body.mass), "{out:?}");
     }
 
@@ -288,12 +295,13 @@ mod tests {
         for right in [0.4, -0.4] {
             let at = trial(right);
             let mut feet = [FixedFoot::new(true, 1e-4), FixedFoot::new(true, -2e-4)];
-            model.meet(&at.q, &mut feet);
+            let places = model.places(&at.q);
+            model.meet(&places, &at.q, &mut feet);
             let weights = TangentWeights { mass: 3e4, damping: 200.0, stiffness: 0.7 };
-            let factor = model.factor(&at, &feet, &weights).unwrap();
+            let factor = model.factor((&at, &places), &feet, &weights).unwrap();
             let unbalance = |trial: &Trial<[f64; N]>| {
                 let mut out = [0.0; N];
-                model.unbalance(trial, &feet, [1.0, 0.5], &mut out);
+                model.unbalance((trial, &model.places(&trial.q)), &feet, [1.0, 0.5], &mut out);
                 out
             };
             let direction = [0.3, -0.5, 0.2, 0.7, -0.1, 0.4, 0.6];

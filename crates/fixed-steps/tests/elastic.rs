@@ -111,13 +111,10 @@ fn it_stands_and_its_matrix_is_the_derivative() {
     let (mut q, mut feet) = model.standing().unwrap();
     let n = q.len();
     let mut out = vec![0.0; n];
-    model.meet(&q, &mut feet);
-    model.unbalance(
-        &Trial { q: q.clone(), v: vec![0.0; n], a: vec![0.0; n] },
-        &feet,
-        [0.0; 2],
-        &mut out,
-    );
+    let places = model.places(&q);
+    model.meet(&places, &q, &mut feet);
+    let still = Trial { q: q.clone(), v: vec![0.0; n], a: vec![0.0; n] };
+    model.unbalance((&still, &places), &feet, [0.0; 2], &mut out);
     assert!(out.iter().all(|f| f.abs() < 1e-8 * frame.total_mass() * 9.81), "{out:?}");
 
     // leaning, the left corner in the air
@@ -125,12 +122,13 @@ fn it_stands_and_its_matrix_is_the_derivative() {
         *x += 2e-3 * (1.7 * i as f64).sin();
     }
     q[2] += 0.01;
-    model.meet(&q, &mut feet);
+    let places = model.places(&q);
+    model.meet(&places, &q, &mut feet);
     assert!(!feet[0].closed && feet[1].closed, "{feet:?}");
     let v: Vec<f64> = (0..n).map(|i| 0.1 * (2.3 * i as f64).cos()).collect();
     let at = Trial { q, v, a: vec![0.3; n] };
     let weights = TangentWeights { mass: 3e4, damping: 200.0, stiffness: 0.7 };
-    let factor = model.factor(&at, &feet, &weights).unwrap();
+    let factor = model.factor((&at, &places), &feet, &weights).unwrap();
     let direction: Vec<f64> = (0..n).map(|i| (0.9 * i as f64 + 0.4).cos()).collect();
     let unbalance = |step: f64| {
         let mut trial = at.clone();
@@ -140,7 +138,7 @@ fn it_stands_and_its_matrix_is_the_derivative() {
             trial.a[k] += step * weights.mass * d;
         }
         let mut out = vec![0.0; n];
-        model.unbalance(&trial, &feet, [0.5, 0.2], &mut out);
+        model.unbalance((&trial, &model.places(&trial.q)), &feet, [0.5, 0.2], &mut out);
         out
     };
     let (high, low) = (unbalance(1e-6), unbalance(-1e-6));

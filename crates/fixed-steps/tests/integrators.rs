@@ -18,21 +18,24 @@ struct Oscillator {
 impl FixedStepModel for Oscillator {
     type Vector = [f64; 1];
     type Feet = [FixedFoot; 0];
+    type Places = ();
     type Factor = f64;
 
     fn standing(&self) -> Result<([f64; 1], [FixedFoot; 0]), EquilibriumError> {
         Ok(([0.0], []))
     }
 
-    fn meet(&self, _: &[f64; 1], _: &mut [FixedFoot; 0]) {}
+    fn places(&self, _: &[f64; 1]) {}
 
-    fn meet_after(&self, _: &[f64; 1], _: &[f64; 1], _: &mut [FixedFoot; 0]) {}
+    fn meet(&self, (): &(), _: &[f64; 1], _: &mut [FixedFoot; 0]) {}
 
-    fn meet_end(&self, _: &[f64; 1], _: f64, _: &[f64; 1], _: &mut [FixedFoot; 0]) {}
+    fn meet_after(&self, _: (&(), &[f64; 1]), _: &[f64; 1], _: &mut [FixedFoot; 0]) {}
+
+    fn meet_end(&self, (): &(), _: f64, _: &[f64; 1], _: &mut [FixedFoot; 0]) {}
 
     fn unbalance(
         &self,
-        trial: &Trial<[f64; 1]>,
+        (trial, ()): (&Trial<[f64; 1]>, &()),
         _: &[FixedFoot; 0],
         [ground, _]: [f64; 2],
         out: &mut [f64; 1],
@@ -42,7 +45,7 @@ impl FixedStepModel for Oscillator {
 
     fn factor(
         &self,
-        _: &Trial<[f64; 1]>,
+        _: (&Trial<[f64; 1]>, &()),
         _: &[FixedFoot; 0],
         weights: &TangentWeights,
     ) -> Option<f64> {
@@ -221,21 +224,24 @@ struct LinearChain {
 impl FixedStepModel for LinearChain {
     type Vector = [f64; 2];
     type Feet = [FixedFoot; 0];
+    type Places = ();
     type Factor = Matrix2<f64>;
 
     fn standing(&self) -> Result<([f64; 2], [FixedFoot; 0]), EquilibriumError> {
         Ok(([0.0; 2], []))
     }
 
-    fn meet(&self, _: &[f64; 2], _: &mut [FixedFoot; 0]) {}
+    fn places(&self, _: &[f64; 2]) {}
 
-    fn meet_after(&self, _: &[f64; 2], _: &[f64; 2], _: &mut [FixedFoot; 0]) {}
+    fn meet(&self, (): &(), _: &[f64; 2], _: &mut [FixedFoot; 0]) {}
 
-    fn meet_end(&self, _: &[f64; 2], _: f64, _: &[f64; 2], _: &mut [FixedFoot; 0]) {}
+    fn meet_after(&self, _: (&(), &[f64; 2]), _: &[f64; 2], _: &mut [FixedFoot; 0]) {}
+
+    fn meet_end(&self, (): &(), _: f64, _: &[f64; 2], _: &mut [FixedFoot; 0]) {}
 
     fn unbalance(
         &self,
-        trial: &Trial<[f64; 2]>,
+        (trial, ()): (&Trial<[f64; 2]>, &()),
         _: &[FixedFoot; 0],
         [ground, _]: [f64; 2],
         out: &mut [f64; 2],
@@ -248,7 +254,7 @@ impl FixedStepModel for LinearChain {
 
     fn factor(
         &self,
-        _: &Trial<[f64; 2]>,
+        _: (&Trial<[f64; 2]>, &()),
         _: &[FixedFoot; 0],
         w: &TangentWeights,
     ) -> Option<Matrix2<f64>> {

@@ -54,9 +54,11 @@ pub fn front(job: &Job, progress: &(dyn Fn(usize, usize) + Sync)) -> Vec<Tradeof
     ladder.sort_by(f64::total_cmp);
     let done = AtomicUsize::new(0);
     progress(0, ladder.len());
-    ladder
-        .par_iter()
-        .with_max_len(1)
+    // the stiffest takes longest, and is begun first
+    let mut points: Vec<TradeoffPoint> = ladder
+        .iter()
+        .rev()
+        .par_bridge()
         .filter_map(|&hz| {
             let springs = if hz == chosen {
                 Some(job.springs)
@@ -64,7 +66,7 @@ pub fn front(job: &Job, progress: &(dyn Fn(usize, usize) + Sync)) -> Vec<Tradeof
                 springs_at_stiffness(&job.body, TAU * hz / job.body.p_squared().sqrt())
             };
             let arr = || job.paper.as_ref().and_then(|paper| paper_error(job, paper, hz));
-            let ours = || springs.map(|springs| (error(job, &springs), cost(job, &springs)));
+            let ours = || springs.map(|springs| error_and_cost(job, &springs));
             let (arr, ours) = rayon::join(arr, ours);
             progress(done.fetch_add(1, Ordering::Relaxed) + 1, ladder.len());
             let (landing, (foot_force_weights, deck_steps)) = ours?;
@@ -77,7 +79,9 @@ pub fn front(job: &Job, progress: &(dyn Fn(usize, usize) + Sync)) -> Vec<Tradeof
                 deck_steps,
             })
         })
-        .collect()
+        .collect();
+    points.sort_by(|a, b| a.omega_n_hz.total_cmp(&b.omega_n_hz));
+    points
 }
 
 fn error(job: &Job, springs: &Springs<Design<f64>>) -> Option<f64> {
@@ -98,12 +102,16 @@ fn paper_error(job: &Job, paper: &Paper, hz: f64) -> Option<f64> {
     };
     let bracket = Bracket { max_hz: hz, max_settlement: f64::INFINITY };
     let from = job.springs.vertical.omega_n_hz;
-    let springs = if hz == from {
-        tuned.best.springs
+    let best = if hz == from {
+        tuned.best
     } else {
-        outer::follow(&benchmark, vertical, horizontal, bracket, tuned, from)?.springs
+        outer::follow(&benchmark, vertical, horizontal, bracket, tuned, from)?
     };
-    error(job, &springs)
+    // the procedure's own history on the record
+    if job.suites.has_whole_record() {
+        return Some(best.of_u).filter(|error| error.is_finite());
+    }
+    error(job, &best.springs)
 }
 
 /// Keeps the largest vertical force of either foot (N), and when contact changed (s).
@@ -126,23 +134,39 @@ impl Observer<f64> for ForceWatch {
     }
 }
 
-/// Largest vertical foot force in weights, and a deck's steps, on the record.
-fn cost(job: &Job, springs: &Springs<Design<f64>>) -> (f64, usize) {
-    let case = Analysis {
-        body: job.body,
-        springs: springs.chains(job.body.mass),
-        start: Start::Settled,
-        dt: job.record.dt,
-        accel: &job.record.accel,
-        vertical: job.record.up(),
-        scale: 1.0,
-        // forces at every sample
-        control: Control::search(),
-    };
+/// The error of springs of the landing; on the record, the largest vertical foot force in weights
+/// and a deck's steps.
+fn error_and_cost(job: &Job, springs: &Springs<Design<f64>>) -> (Option<f64>, (f64, usize)) {
+    let chains = springs.chains(job.body.mass);
+    // forces at every sample
+    let control = Control::search();
     let mut watch = ForceWatch { largest: 0.0, changes: Vec::new() };
-    case.observe(&mut watch);
+    let error = match job.suites.error_on_whole_record(&chains, control, &mut watch) {
+        Some(error) => Some(error).filter(|error| error.is_finite()),
+        None => {
+            let case = Analysis {
+                body: job.body,
+                springs: chains,
+                start: Start::Settled,
+                dt: job.record.dt,
+                accel: &job.record.accel,
+                vertical: job.record.up(),
+                scale: 1.0,
+                control,
+            };
+            case.observe(&mut watch);
+            measured_error(job, springs).or_else(|| error(job, springs))
+        }
+    };
     let duration = job.record.len().saturating_sub(1) as f64 * job.record.dt;
     let landing = (TAU * springs.vertical.omega_n_hz).recip();
     let steps = deck_steps(&watch.changes, duration, job.record.dt, landing);
-    (watch.largest / (job.body.mass * GRAVITY), steps)
+    (error, (watch.largest / (job.body.mass * GRAVITY), steps))
+}
+
+/// What the search has measured of these springs on synthetic motions, where those are compared.
+fn measured_error(job: &Job, springs: &Springs<Design<f64>>) -> Option<f64> {
+    let measured = job.tuned.best.errors.histories.synthetic_median;
+    let chosen = *springs == job.springs && !job.suites.has_record();
+    measured.filter(|_| chosen).map(|median| median.value).filter(|error| error.is_finite())
 }

@@ -189,17 +189,25 @@ impl SearchedSprings {
         progress: &(dyn Fn(usize, usize, f64) + Sync),
     ) -> Result<Self, JobError> {
         let &LandingDesign { case, body, suites, procedure, effort } = design;
-        let (tuned, capped) = design.tune(progress)?;
+        // what the one spends does not stop the other: which is first hangs on the threads
+        let rest = effort.share(1);
+        let program = |effort: &Effort| ProgramSprings::of_case(case, &body, suites, effort);
+        let compared = suites.has_whole_record();
+        // a core is free in the paper's refinement; without it, between the stiffnesses tried
+        let (found, early) = match compared {
+            true => (design.tune(progress), None),
+            false => join(|| design.tune(progress), || Some(program(&rest))),
+        };
+        let (tuned, capped) = found?;
         let mut not_done = left_out(NotDone::Stiffnesses, effort);
         let hz = tuned.best.springs.vertical.omega_n_hz;
         // on an ill-conditioned record it would tune to noise
-        let beside = suites.has_whole_record() && !effort.stops();
-        // what the one spends does not stop the other: which is first hangs on the threads
-        let rest = effort.share(1);
+        let sampled =
+            (compared && !effort.stops()).then(|| procedure.sampled_beside(hz, progress)).flatten();
         let for_program = if effort.stopped() { effort } else { &rest };
         let (paper, program) = join(
-            || if beside { procedure.beside(hz, progress) } else { None },
-            || ProgramSprings::of_case(case, &body, suites, for_program),
+            || sampled.and_then(|sampled| procedure.refined_beside(sampled, progress)),
+            || early.unwrap_or_else(|| program(for_program)),
         );
         effort.join(&rest);
         if suites.has_whole_record() {

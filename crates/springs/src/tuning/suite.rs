@@ -14,12 +14,12 @@ pub use accuracy::LOOSER;
 pub(super) use accuracy::quantile;
 pub use accuracy::{Accuracy, JudgedOn, MeasuredErrors, PeakAccuracy, Statistic};
 use accuracy::{ERRORS, geometric_mean};
-use reference::{ReferenceMotion, TrialErrors, WantedMotion, errors};
+use reference::{ReferenceMotion, TrialErrors, WantedMotion, errors, errors_watched};
 
 use crate::{case::Yardstick, validate::PeakErrors};
 use dynamics::{
     effort::Effort,
-    fem::Control,
+    fem::{Control, Observer},
     spring::{Chain, Springs},
 };
 use rocking::{structure::Body, synthetic};
@@ -92,8 +92,13 @@ impl Suites {
             ReferenceMotion::new(body, restitution, record, WantedMotion::PredictableWhileItStands)
         };
         let earthquake = |i| synthetic::earthquake(seed, i, p);
-        let mut earthquakes =
-            first(EARTHQUAKES, 0..LOOKED_AT, effort, |i| predictable(earthquake(i)));
+        let as_they_are =
+            || first(EARTHQUAKES, 0..LOOKED_AT, effort, |i| predictable(earthquake(i)));
+        let synthetic = || {
+            first(SYNTHETIC, 0..LOOKED_AT, effort, |i| well(synthetic::record(seed, i, p, alpha)))
+        };
+        // side by side: the last motion of a batch leaves a core to the other suite
+        let (mut earthquakes, synthetic) = rayon::join(as_they_are, synthetic);
         let missing = EARTHQUAKES - earthquakes.len();
         let mild = first(missing, 0..LOOKED_AT, effort, |i| mild(milder(earthquake(i), alpha)?));
         let scaled_down = mild.len();
@@ -101,9 +106,7 @@ impl Suites {
         Self {
             body: *body,
             record: record.and_then(|record| standing(record.clone())),
-            synthetic: first(SYNTHETIC, 0..LOOKED_AT, effort, |i| {
-                well(synthetic::record(seed, i, p, alpha))
-            }),
+            synthetic,
             earthquakes,
             scaled_down,
         }
@@ -142,7 +145,7 @@ impl Suites {
     }
 
     /// Whether the record is one of the motions judged on, from its beginning to its end.
-    pub(crate) fn has_whole_record(&self) -> bool {
+    pub fn has_whole_record(&self) -> bool {
         self.record.as_ref().is_some_and(|trial| !trial.overturns)
     }
 
@@ -220,6 +223,19 @@ impl Suites {
     /// be followed: one number for a figure.
     pub fn error(&self, springs: &Springs<Chain<f64>>, control: Control) -> Option<f64> {
         self.error_by(Yardstick::Histories, springs, control)
+    }
+
+    /// The error of the history on the record, which another observer sees, too; none of a record
+    /// that is not judged on from its beginning to its end, which is then not followed.
+    pub fn error_on_whole_record(
+        &self,
+        springs: &Springs<Chain<f64>>,
+        control: Control,
+        watch: &mut impl Observer<f64>,
+    ) -> Option<f64> {
+        let trial = self.record.as_ref().filter(|trial| !trial.overturns)?;
+        let effort = Effort::unbounded();
+        Some(errors_watched(trial, &self.body, springs, (control, &effort), watch).u)
     }
 
     /// The same by a yardstick.

@@ -44,29 +44,40 @@ impl<'a> Procedure<'a> {
         progress: &(dyn Fn(usize, usize, f64) + Sync),
     ) -> Option<outer::OmegaSearch> {
         let samples = self.case.tuning.candidates;
-        self.sampled(max_hz, (samples, &Refinement::SOUGHT), progress)
+        let sampled = self.sampled(max_hz, (samples, &Refinement::SOUGHT), progress)?;
+        sampled.refined(self.benchmark, &Refinement::SOUGHT, progress)
     }
 
     /// The same to compare with, at the Omega_n (Hz) of stiff springs: sampled at each pair's
-    /// stiffest only, and the best of them refined.
-    pub(crate) fn beside(
+    /// stiffest only, and to be refined by `refined_beside`.
+    pub(crate) fn sampled_beside(
         &self,
         max_hz: f64,
         progress: &(dyn Fn(usize, usize, f64) + Sync),
-    ) -> Option<outer::OmegaSearch> {
+    ) -> Option<outer::Sampled> {
         self.sampled(max_hz, (0, &Refinement::COMPARED), progress)
+    }
+
+    /// The best of these, refined: one history after the other, so that another core is free.
+    pub(crate) fn refined_beside(
+        &self,
+        sampled: outer::Sampled,
+        progress: &(dyn Fn(usize, usize, f64) + Sync),
+    ) -> Option<outer::OmegaSearch> {
+        sampled.refined(self.benchmark, &Refinement::COMPARED, progress)
     }
 
     fn sampled(
         &self,
         max_hz: f64,
-        search: (usize, &Refinement),
+        (samples, refinement): (usize, &Refinement),
         progress: &(dyn Fn(usize, usize, f64) + Sync),
-    ) -> Option<outer::OmegaSearch> {
+    ) -> Option<outer::Sampled> {
         let bracket = Bracket { max_hz, max_settlement: self.case.tuning.max_settlement_m };
         let least = self.least_settlement(&bracket);
         let bracket = Bracket { max_settlement: bracket.max_settlement.max(least), ..bracket };
-        outer::tune(self.benchmark, &self.vertical, &self.horizontal, bracket, search, progress)
+        let pairs = outer::pairs(&self.vertical, &self.horizontal, bracket);
+        outer::Sampled::of(self.benchmark, &pairs, samples, refinement, progress)
     }
 
     fn least_settlement(&self, bracket: &Bracket) -> f64 {

@@ -63,6 +63,8 @@ pub struct Candidate {
     pub springs: Springs<Design<f64>>,
     /// sqrt(J/2), the mean NRMSE of u and v; what it had reached when abandoned.
     pub error: f64,
+    /// NRMSE of u alone, as far.
+    pub of_u: f64,
     pub abandoned: bool,
 }
 
@@ -95,17 +97,13 @@ impl Benchmark<'_> {
         }
     }
 
-    /// Mean NRMSE of u and v, sqrt(J/2), abandoned as soon as it exceeds `limit`.
-    pub fn error(
-        &self,
-        springs: &Springs<Design<f64>>,
-        limit: f64,
-        control: Control,
-    ) -> (f64, bool) {
+    /// Springs with their error, abandoned as soon as it exceeds `limit`; infinite errors of a
+    /// history that is not followed to the end.
+    pub fn judge(&self, springs: &Springs<Design<f64>>, limit: f64, control: Control) -> Candidate {
         let square = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().max(f64::MIN_POSITIVE);
         let (su, sv) = (square(&self.housner.u), square(&self.housner.v));
         let case = self.case(springs, control);
-        let (mut sum, mut settled) = (0.0, 0.0);
+        let (mut sum, mut sum_u, mut settled) = (0.0, 0.0, 0.0);
         let finish: Finish<f64> = case.observe(&mut |i: usize, view: &View<f64>| {
             if i == 0 {
                 settled = view.z();
@@ -115,6 +113,7 @@ impl Benchmark<'_> {
             };
             let (du, dv) = (view.x() - u, view.z() - settled - v);
             sum += du * du / su + dv * dv / sv;
+            sum_u += du * du;
             if sum > 2.0 * limit * limit {
                 ControlFlow::Break(())
             } else {
@@ -123,13 +122,17 @@ impl Benchmark<'_> {
         });
         finish.spend(self.effort);
         let error = (0.5 * sum).sqrt();
+        let so_far =
+            Candidate { springs: *springs, error, of_u: (sum_u / su).sqrt(), abandoned: false };
         match finish.outcome {
-            HistoryOutcome::Completed => (error, false),
+            HistoryOutcome::Completed => so_far,
             // toppled, out of work or out of balance: it has not followed to the end
             HistoryOutcome::Overturned { .. }
             | HistoryOutcome::WorkBound { .. }
-            | HistoryOutcome::Unstable { .. } => (f64::INFINITY, false),
-            HistoryOutcome::Stopped { .. } => (error, error > limit),
+            | HistoryOutcome::Unstable { .. } => {
+                Candidate { error: f64::INFINITY, of_u: f64::INFINITY, ..so_far }
+            }
+            HistoryOutcome::Stopped { .. } => Candidate { abandoned: error > limit, ..so_far },
         }
     }
 }
@@ -161,7 +164,7 @@ impl Bracket {
 
 /// A pair of families, with frequencies given as fractions 0..1 of their brackets (logarithmic).
 #[derive(Clone, Copy)]
-struct Pair {
+pub(crate) struct Pair {
     vertical: Design<f64>,
     horizontal: Design<f64>,
     bracket: Bracket,
@@ -192,7 +195,7 @@ impl Pair {
 }
 
 /// All pairs of families that can be stiff enough.
-fn pairs(vertical: &[Fit], horizontal: &[Fit], bracket: Bracket) -> Vec<Pair> {
+pub(crate) fn pairs(vertical: &[Fit], horizontal: &[Fit], bracket: Bracket) -> Vec<Pair> {
     let design =
         |fit: &Fit| Design { mu: fit.mu, f: fit.f, xi: fit.xi, omega_n_hz: bracket.max_hz };
     let pair = |v: &Fit, h: &Fit| Pair { vertical: design(v), horizontal: design(h), bracket };
@@ -211,37 +214,51 @@ fn radical_inverse(mut i: usize, base: usize) -> f64 {
     x
 }
 
-/// Tune Omega_n over all pairs of families.
-///
-/// `progress` is called with the number of evaluations done, the number planned and the least error
-/// so far.
-pub(crate) fn tune(
-    benchmark: &Benchmark,
-    vertical: &[Fit],
-    horizontal: &[Fit],
-    bracket: Bracket,
-    (samples, refinement): (usize, &Refinement),
-    progress: &(dyn Fn(usize, usize, f64) + Sync),
-) -> Option<OmegaSearch> {
-    let pairs = pairs(vertical, horizontal, bracket);
-    if pairs.is_empty() {
-        return None;
-    }
-    // stiffer springs follow better as a rule: the square root puts more samples there; the first
-    // of each pair is stiffest
-    let plan: Vec<(usize, [f64; 2])> = (0..samples.max(pairs.len()))
-        .map(|i| {
+/// Springs of all pairs of families, sampled over their brackets.
+pub(crate) struct Sampled {
+    plan: Vec<(Pair, [f64; 2])>,
+    candidates: Vec<Candidate>,
+}
+
+impl Sampled {
+    /// `samples` of them, or one of each pair: its stiffest. None if no pair can be stiff enough.
+    ///
+    /// `progress` is called with the number of evaluations done, the number planned with those of
+    /// the refinement, and the least error so far.
+    pub(crate) fn of(
+        benchmark: &Benchmark,
+        pairs: &[Pair],
+        samples: usize,
+        refinement: &Refinement,
+        progress: &(dyn Fn(usize, usize, f64) + Sync),
+    ) -> Option<Self> {
+        if pairs.is_empty() {
+            return None;
+        }
+        // stiffer springs follow better as a rule: the square root puts more samples there; the
+        // first of each pair is stiffest
+        let sample_of = |i: usize| {
             let (pair, round) = (i % pairs.len(), i / pairs.len());
             let at = |base| if round == 0 { 1.0 } else { radical_inverse(round, base).sqrt() };
-            (pair, [at(2), at(3)])
-        })
-        .collect();
-    let total = plan.len() + refinement.evaluations();
-    let plan: Vec<(Pair, [f64; 2])> = plan.into_iter().map(|(pair, x)| (pairs[pair], x)).collect();
-    let candidates = sample(benchmark, &plan, total, progress);
-    let tuned = refinement.best_of(benchmark, &plan, candidates)?;
-    progress(tuned.candidates.len(), tuned.candidates.len(), tuned.best.error);
-    Some(tuned)
+            (pairs[pair], [at(2), at(3)])
+        };
+        let plan: Vec<(Pair, [f64; 2])> = (0..samples.max(pairs.len())).map(sample_of).collect();
+        let total = plan.len() + refinement.evaluations();
+        let candidates = sample(benchmark, &plan, total, progress);
+        Some(Self { plan, candidates })
+    }
+
+    /// The best few refined, one evaluation after the other; the best of all.
+    pub(crate) fn refined(
+        self,
+        benchmark: &Benchmark,
+        refinement: &Refinement,
+        progress: &(dyn Fn(usize, usize, f64) + Sync),
+    ) -> Option<OmegaSearch> {
+        let tuned = refinement.best_of(benchmark, &self.plan, self.candidates)?;
+        progress(tuned.candidates.len(), tuned.candidates.len(), tuned.best.error);
+        Some(tuned)
+    }
 }
 
 /// Follow springs found for another stiffness (`from_hz`) to this bracket's: from the best of them,
@@ -288,11 +305,7 @@ fn sample(
         let found: Vec<Candidate> = batch
             .par_iter()
             .with_max_len(1)
-            .map(|(pair, x)| {
-                let springs = pair.springs(*x);
-                let (error, abandoned) = benchmark.error(&springs, best, Control::search());
-                Candidate { springs, error, abandoned }
-            })
+            .map(|(pair, x)| benchmark.judge(&pair.springs(*x), best, Control::search()))
             .collect();
         candidates.extend(found);
         best = candidates

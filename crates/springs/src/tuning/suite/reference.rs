@@ -1,11 +1,11 @@
 //! A motion with Housner's answer to it, and how far springs are from that.
 
-use std::{borrow::Cow, sync::Arc};
+use std::{borrow::Cow, ops::ControlFlow, sync::Arc};
 
 use crate::validate::{ComparisonObserver, HousnerForces, PREDICTABLE, PeakErrors, push};
 use dynamics::{
     effort::Effort,
-    fem::{Analysis, Control, Finish, HistoryOutcome, Start, histories},
+    fem::{Analysis, Change, Control, Finish, HistoryOutcome, Observer, Start, View, histories},
     spring::{Chain, Springs},
 };
 use rocking::{
@@ -168,24 +168,73 @@ pub(super) fn errors(
     let followed = histories(&cases, |i| {
         ComparisonObserver::new(body, &trials[i].theta, &pushes[i]).with_forces(&trials[i].forces)
     });
-    let error =
-        |((stream, finish), trial): ((ComparisonObserver, Finish<f64>), &ReferenceMotion)| {
-            finish.spend(effort);
-            effort.judged(matches!(finish.outcome, HistoryOutcome::WorkBound { .. }));
-            let overturned = match finish.outcome {
-                HistoryOutcome::Completed => housner::topples(body, stream.last.0, stream.last.1),
-                HistoryOutcome::Overturned { .. } | HistoryOutcome::Stopped { .. } => true,
-                _ => return LOST,
-            };
-            if overturned != trial.overturns {
-                return LOST;
-            }
-            let errors = if overturned { stream.upright } else { stream.errors };
-            TrialErrors {
-                u: errors.horizontal.value(),
-                v: errors.vertical.value(),
-                peaks: errors.peaks.errors(),
-            }
-        };
+    let error = |((stream, finish), trial): ((ComparisonObserver, Finish<f64>), _)| {
+        TrialErrors::of(trial, body, (&stream, &finish), effort)
+    };
     followed.into_iter().zip(trials).map(error).collect()
+}
+
+/// The errors on one trial, with a second observer of the same history.
+pub(super) fn errors_watched(
+    trial: &ReferenceMotion,
+    body: &Body<f64>,
+    springs: &Springs<Chain<f64>>,
+    (control, effort): (Control, &Effort),
+    watch: &mut impl Observer<f64>,
+) -> TrialErrors {
+    let push = trial.push();
+    let stream = ComparisonObserver::new(body, &trial.theta, &push).with_forces(&trial.forces);
+    let mut both = WatchedComparison { stream, watch };
+    let finish = trial.case(body, springs, control).observe(&mut both);
+    TrialErrors::of(trial, body, (&both.stream, &finish), effort)
+}
+
+/// Compares a history, and shows it to another observer, who decides how long it is followed.
+struct WatchedComparison<'a, 'w, W> {
+    stream: ComparisonObserver<'a>,
+    watch: &'w mut W,
+}
+
+impl<W: Observer<f64>> Observer<f64> for WatchedComparison<'_, '_, W> {
+    fn sample(&mut self, index: usize, view: &View<f64>) -> ControlFlow<()> {
+        // a body that falls has toppled at the end, too
+        let _ = self.stream.sample(index, view);
+        self.watch.sample(index, view)
+    }
+
+    fn step(&mut self, view: &View<f64>) {
+        self.watch.step(view);
+    }
+
+    fn event(&mut self, index: usize, change: Change, view: &View<f64>) {
+        self.stream.event(index, change, view);
+        self.watch.event(index, change, view);
+    }
+}
+
+impl TrialErrors {
+    /// Of a history that was followed so, on a motion.
+    fn of(
+        trial: &ReferenceMotion,
+        body: &Body<f64>,
+        (stream, finish): (&ComparisonObserver, &Finish<f64>),
+        effort: &Effort,
+    ) -> Self {
+        finish.spend(effort);
+        effort.judged(matches!(finish.outcome, HistoryOutcome::WorkBound { .. }));
+        let overturned = match finish.outcome {
+            HistoryOutcome::Completed => housner::topples(body, stream.last.0, stream.last.1),
+            HistoryOutcome::Overturned { .. } | HistoryOutcome::Stopped { .. } => true,
+            _ => return LOST,
+        };
+        if overturned != trial.overturns {
+            return LOST;
+        }
+        let errors = if overturned { &stream.upright } else { &stream.errors };
+        Self {
+            u: errors.horizontal.value(),
+            v: errors.vertical.value(),
+            peaks: errors.peaks.errors(),
+        }
+    }
 }

@@ -62,7 +62,7 @@ impl Refinement {
             .map(|(i, share)| {
                 let (pair, x) = &plan[*i];
                 let benchmark = Benchmark { effort: share, ..*benchmark };
-                self.refine(&benchmark, pair, *x, candidates[*i].error)
+                self.refine(&benchmark, pair, *x, candidates[*i])
             })
             .collect();
         shares.iter().for_each(|(_, share)| effort.join(share));
@@ -73,17 +73,19 @@ impl Refinement {
         Some(OmegaSearch { best: candidates[chosen], chosen, candidates })
     }
 
-    /// Nelder-Mead from one sample; every evaluation is kept.
+    /// Nelder-Mead from one sample, which was judged at its place x; every evaluation is kept.
     fn refine(
         &self,
         benchmark: &Benchmark,
         pair: &Pair,
         x: [f64; 2],
-        start: f64,
+        sample: Candidate,
     ) -> Vec<Candidate> {
         struct OuterProblem<'a> {
             benchmark: &'a Benchmark<'a>,
             pair: &'a Pair,
+            /// Corners of the first simplex.
+            judged: [Candidate; 3],
             limit: f64,
             seen: std::sync::Mutex<Vec<Candidate>>,
         }
@@ -97,21 +99,26 @@ impl Refinement {
                     // what was not followed leads nowhere
                     return Ok(f64::MAX);
                 }
-                let (error, abandoned) =
-                    self.benchmark.error(&springs, self.limit, Control::search());
+                let known = self.judged.iter().find(|judged| judged.springs == springs);
+                let judged = known.copied().unwrap_or_else(|| {
+                    self.benchmark.judge(&springs, self.limit, Control::search())
+                });
                 if let Ok(mut seen) = self.seen.lock() {
-                    seen.push(Candidate { springs, error, abandoned });
+                    seen.push(judged);
                 }
-                Ok(error + outside)
+                Ok(judged.error + outside)
             }
         }
         let step = |x: f64, d: f64| if x + d > 1.0 { x - d } else { x + d };
-        let simplex =
-            vec![vec![x[0], x[1]], vec![step(x[0], 0.06), x[1]], vec![x[0], step(x[1], 0.06)]];
+        let corners = [x, [step(x[0], 0.06), x[1]], [x[0], step(x[1], 0.06)]];
         // an error well above the start's cannot help, but its size still steers the simplex
-        let problem =
-            OuterProblem { benchmark, pair, limit: 2.0 * start, seen: Default::default() };
-        let spread = LEAST_SPREAD.max(self.spread * start);
+        let limit = 2.0 * sample.error;
+        let judge = |x: [f64; 2]| benchmark.judge(&pair.springs(x), limit, Control::search());
+        let (second, third) = rayon::join(|| judge(corners[1]), || judge(corners[2]));
+        let judged = [sample, second, third];
+        let simplex = corners.map(|x| x.to_vec()).to_vec();
+        let problem = OuterProblem { benchmark, pair, judged, limit, seen: Default::default() };
+        let spread = LEAST_SPREAD.max(self.spread * sample.error);
         let run = NelderMead::new(simplex).with_sd_tolerance(spread).map(|solver| {
             Executor::new(problem, solver).configure(|state| state.max_iters(self.iterations)).run()
         });
