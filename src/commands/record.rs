@@ -78,8 +78,9 @@ pub fn run(o: &RecordFileOptions) -> Result<(), CommandError> {
     let own = if o.files.is_empty() { o.asked() } else { ReadOptions::default() };
     let case = o.case.as_deref().map(|path| Case::read_asking(path, &own)).transpose()?;
     let body = case.as_ref().map(|case| case.structure.body::<f64>());
-    let duration =
-        case.as_ref().map_or(LONGEST_S, |case| case.excitation.duration_s.unwrap_or(LONGEST_S));
+    // a case's length is that of its own record: another one is taken whole
+    let own = case.as_ref().filter(|_| o.files.is_empty());
+    let duration = own.and_then(|case| case.excitation.duration_s).unwrap_or(LONGEST_S);
     if let Some(folder) = &o.out {
         check_folder(folder)?;
     }

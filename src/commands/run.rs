@@ -227,7 +227,10 @@ impl RunOptions {
         let decks = run.taken.record.is_some();
         let report = !self.no_report;
         let screen = screen(run, &Written { folder: &folder, report, decks, left_out });
-        let more = if self.verbose { format!("\n{}", markdown(run)) } else { String::new() };
+        let more = match self.verbose {
+            true => format!("\n{}", markdown(&run.clone().with_decks(left_out))),
+            false => String::new(),
+        };
         terminal::stdout(format_args!("{screen}{more}"))
     }
 }

@@ -118,7 +118,8 @@ fn whole() -> Mark {
 }
 
 fn abandoned() -> Mark {
-    Mark::new(MarkShape::Disc, 7.0, PALE).hollow()
+    // a ring around one that was run to the end at the same place
+    Mark::new(MarkShape::Disc, 11.0, PALE).hollow()
 }
 
 fn infinite() -> Mark {

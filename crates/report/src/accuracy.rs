@@ -16,8 +16,23 @@ use springs::{
 /// What the record of the run is called.
 pub(crate) const THIS_RECORD: &str = "this record";
 
-/// Of a record whose motion cannot be predicted: two models that are equally right part on it.
-const UNJUDGED: &str = "this record is too sensitive";
+/// Why springs are not judged on the record of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Unjudged {
+    /// Its motion cannot be predicted: two models that are equally right part on it.
+    TooSensitive,
+    /// Nothing rocks on it.
+    NothingRocks,
+}
+
+impl Unjudged {
+    fn words(self) -> &'static str {
+        match self {
+            Self::TooSensitive => "this record is too sensitive",
+            Self::NothingRocks => "this record: nothing rocks",
+        }
+    }
+}
 
 /// An error measured on a record or on a set of motions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -115,9 +130,9 @@ impl AccuracyReport {
     }
 
     /// The same for a screen, in parts, of which the last may be left out: on the first so many of
-    /// the record and the sets of motions; that this record, if there is one, does not judge
+    /// the record and the sets of motions; why this record, if there is one, does not judge
     /// springs.
-    pub fn short(&self, sets: usize, of_record: bool) -> Vec<String> {
+    pub(crate) fn short(&self, sets: usize, record: Option<Unjudged>) -> Vec<String> {
         let on = |(i, row): (usize, &AccuracyOn)| {
             let [peaks, nrmse] = if i == 0 { ["peaks within ", "NRMSE "] } else { [""; 2] };
             let peaks = row.peaks.map(|error| format!("{peaks}{}", within(error, row.worst)));
@@ -131,7 +146,7 @@ impl AccuracyReport {
         }
         let reached = if self.reached { "asked" } else { "NOT reached" };
         let mut said = vec![format!("{reached}: {}", self.asked())];
-        said.extend((of_record && !self.on_record()).then(|| UNJUDGED.to_string()));
+        said.extend(record.filter(|_| !self.on_record()).map(|why| why.words().to_string()));
         // what goes wrong first
         if self.reached {
             said.reverse();
@@ -216,7 +231,7 @@ mod tests {
                 0.002, reached"
         );
         assert_eq!(
-            report.short(2, true),
+            report.short(2, Some(Unjudged::TooSensitive)),
             ["this record: peaks within 0.013 % (uplift), NRMSE 2.2e-5", "asked: NRMSE 0.002"]
         );
         assert_eq!(report.table().rows[0][2], "0.013 %");

@@ -48,8 +48,11 @@ const ROUNDING_M: f64 = 1e-12;
 /// Below this part of the top's displacement, too: what a part of it is told to at most.
 const ROUNDING: f64 = 1e-5;
 
+/// Drift ratio of a structure that hardly moves: models are not compared there.
+pub(crate) const LEAST_DRIFT: f64 = 1e-6;
+
 /// Without rounding.
-fn exact(x: f64) -> f64 {
+pub(crate) fn exact(x: f64) -> f64 {
     if x.abs() < ROUNDING_M { 0.0 } else { x }
 }
 
@@ -100,7 +103,9 @@ pub fn peak_table(run: &Run) -> Option<Table> {
         let difference = match name {
             "impacts" => String::new(),
             _ if pair.reference_ends_s.is_some() => "-".into(),
-            _ if a.abs() > ROUNDING_M => percent(b / a - 1.0),
+            _ if a.abs() > ROUNDING_M && pair.reference.drift_ratio > LEAST_DRIFT => {
+                percent(b / a - 1.0)
+            }
             _ => "-".into(),
         };
         // a rigid body's are those of some strength
@@ -162,7 +167,7 @@ pub fn summary(run: &Run) -> Table {
     if let Some(pair) = &run.peaks {
         let springs = pair.with_members.unwrap_or(pair.springs);
         for (name, of, unit, when) in SUMMARY {
-            let (a, b) = (of(&pair.reference), of(&springs));
+            let [a, b] = [&pair.reference, &springs].map(|peaks| of(peaks).map(exact));
             let time = springs.times.as_ref().and_then(when);
             let sure = time.map(|time| until.is_none_or(|until| time <= until));
             let time = time.filter(|time| time.is_finite());

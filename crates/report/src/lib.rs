@@ -30,6 +30,7 @@ mod verdict;
 use rocking::structure::Kind;
 use serde::Serialize;
 
+use accuracy::Unjudged;
 pub use accuracy::{AccuracyOn, AccuracyReport};
 pub use displacements::{peak_table, summary};
 pub use markdown::{force_value, height};
@@ -42,7 +43,7 @@ use springs::{
     parameters::{Parameters, elastic::ElasticParameters},
     results::{
         DeckEnd, DesignForce, DesignForces, FiledFinding, Finding, ForceName, PeakChange, PeakPair,
-        Weight,
+        Weight, findings::HARDLY_ROCKS,
     },
 };
 pub use table::Table;
@@ -285,6 +286,17 @@ impl Run {
             })
         };
         holds_to.is_some_and(late)
+    }
+
+    /// Why springs are not judged on the record, if there is one.
+    pub(crate) fn unjudged(&self) -> Option<Unjudged> {
+        self.taken.record.as_ref()?;
+        let rests = self.findings.iter().any(|filed| match filed.finding {
+            Finding::NeverLifts { .. } => true,
+            Finding::Stands { share_of_overturning, .. } => share_of_overturning < HARDLY_ROCKS,
+            _ => false,
+        });
+        Some(if rests { Unjudged::NothingRocks } else { Unjudged::TooSensitive })
     }
 
     /// Whether the motion can be foretold up to a force's largest value.

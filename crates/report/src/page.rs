@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::{
     Run, Section,
+    displacements::exact,
     html::{escape, in_html, pretty, table, tile},
     markdown::sections,
     sentence,
@@ -80,7 +81,7 @@ fn tiles(run: &Run) -> String {
     let mut out = String::new();
     if let Some(pair) = &run.peaks {
         let (shown, reference) = (pair.with_members.unwrap_or(pair.springs), pair.reference);
-        let m = |x: f64| quantity(x, "m");
+        let m = |x: f64| quantity(exact(x), "m");
         let top =
             format!("top displacement; {} {}", run.reference, m(reference.top_displacement_m));
         out += &tile(&m(shown.top_displacement_m), &top);

@@ -90,21 +90,23 @@ impl ProgramReport {
             )
         });
         let late = late(parameters.peaks, &parameters.findings);
-        Some(Self::new(row, units.into(), inertia, ("top", late)))
+        Some(Self::new(row, units.into(), inertia, ("top", "synthetic motions", late)))
     }
 
     /// Of an elastic structure's springs.
     pub(crate) fn of_elastic(parameters: &ElasticParameters) -> Option<Self> {
         let row = parameters.program.as_ref()?;
         let late = late(parameters.peaks, &parameters.findings);
-        Some(Self::new(row, corner_units(&row.units.springs), None, ("peaks", late)))
+        // this record among them
+        let told = ("peaks", "motions", late);
+        Some(Self::new(row, corner_units(&row.units.springs), None, told))
     }
 
     fn new<U>(
         row: &ProgramRow<U>,
         units: Vec<Unit>,
         inertia: Option<ProgramSetting>,
-        peaks: (&str, bool),
+        (peaks, motions, late): (&str, &'static str, bool),
     ) -> Self {
         let tolerance = match row.converged {
             ProgramTest::UnbalanceOverWeight(value) => {
@@ -145,10 +147,10 @@ impl ProgramReport {
             program: row.program(),
             steps: quantity(row.step_s, "s"),
             set_to,
-            errors: errors(row, peaks, true),
-            short_errors: errors(row, peaks, false),
+            errors: errors(row, (peaks, motions, late), true),
+            short_errors: errors(row, (peaks, motions, late), false),
             units,
-            table: table(row),
+            table: table(row, motions),
             usable: row.not_to_be_used().is_none(),
             deck_of_even_steps: row.is_opensees_even(),
             csi: row.is_csi(),
@@ -243,12 +245,14 @@ fn late(peaks: Option<PeakPair>, findings: &[FiledFinding]) -> bool {
 
 /// What goes wrong, if something does; then the errors, largest displacement first: median and what
 /// 90 % are below.
-fn errors<U>(row: &ProgramRow<U>, (peaks, late): (&str, bool), room: bool) -> String {
+fn errors<U>(
+    row: &ProgramRow<U>,
+    (peaks, motions, late): (&str, &'static str, bool),
+    room: bool,
+) -> String {
     let nothing = String::new;
-    let suites = [
-        ("motions", row.expected.synthetic),
-        ("earthquake-like motions", row.expected.earthquakes),
-    ];
+    let suites =
+        [(motions, row.expected.synthetic), ("earthquake-like motions", row.expected.earthquakes)];
     let suites = suites.into_iter().filter_map(|(name, errors)| Some((name, errors?)));
     let suites: Vec<(&str, ProgramErrors)> = suites.collect();
     let median = |errors: &ProgramErrors| errors.peak[0].unwrap_or(f64::INFINITY);
@@ -269,9 +273,12 @@ fn errors<U>(row: &ProgramRow<U>, (peaks, late): (&str, bool), room: bool) -> St
     let history = history.map_or(String::new(), |x| format!(", NRMSE {}", significant(x, 2)));
     let [lost, all] =
         suites.iter().fold([0; 2], |[lost, all], (_, e)| [lost + e.lost, all + e.histories]);
+    let each = |(name, e): &(&str, ProgramErrors)| format!("{} of {} {name}", e.lost, e.histories);
     let fails = match lost {
         0 => nothing(),
-        lost if room => format!("fails on {lost} of {all} motions; "),
+        _ if room => {
+            format!("fails on {}; ", suites.iter().map(each).collect::<Vec<_>>().join(", "))
+        }
         lost => format!("fails on {lost} of {all}; "),
     };
     let [ends, top] = row.on_record.map_or([None; 2], |on| [on.gives_up_s, on.top]);
@@ -287,12 +294,19 @@ fn errors<U>(row: &ProgramRow<U>, (peaks, late): (&str, bool), room: bool) -> St
         (false, false) => format!("here top {}; ", signed(top)),
     });
     if !room {
-        return format!("{ends}{fails}{here}{peaks} {median} (median), {ninety} (90 %)");
+        let told = match errors.peak[0] {
+            Some(_) => format!("{peaks} {median} (median), {ninety} (90 %)"),
+            None => format!("most {name} are lost"),
+        };
+        return format!("{ends}{fails}{here}{told}");
     }
     // how many there are is said with those that fail
     let told = lost > 0 && suites.len() == 1;
     let on = if told { nothing() } else { format!(" on {} {name}", errors.histories) };
-    let within = format!("{peaks} within {median} (median), {ninety} (90 %){on}{history}");
+    let within = match errors.peak[0] {
+        Some(_) => format!("{peaks} within {median} (median), {ninety} (90 %){on}{history}"),
+        None => format!("most {name} are lost"),
+    };
     format!("{ends}{fails}{here}{within}")
 }
 
@@ -302,7 +316,7 @@ fn signed(share: f64) -> String {
     format!("{sign}{}", percent(share))
 }
 
-fn table<U>(row: &ProgramRow<U>) -> Table {
+fn table<U>(row: &ProgramRow<U>, motions: &str) -> Table {
     let expected = &row.expected;
     let number = |x: f64| significant(x, 2);
     let cell = |x: Option<f64>| x.map_or("lost".into(), number);
@@ -330,7 +344,7 @@ fn table<U>(row: &ProgramRow<U>) -> Table {
         })
     };
     let measured = [
-        measured("synthetic motions", expected.synthetic),
+        measured(motions, expected.synthetic),
         measured("earthquake-like motions", expected.earthquakes),
     ];
     Table::new([

@@ -11,7 +11,7 @@ use rocking::{
 };
 use springs::{
     answers::ModelComparison,
-    results::{Ending, Finding, FindingModel},
+    results::{Ending, Finding, FindingModel, findings::HARDLY_ROCKS},
     verdict::{Answer, Fate, Verdict},
 };
 use strong_motion::Record;
@@ -159,7 +159,10 @@ pub(crate) fn verdict(
     }];
     all.extend(verdict.housner_without_vertical.map(|level| Finding::WithoutVertical {
         does: does(&level),
-        share_of_overturning: level.peak_ratio,
+        share_of_overturning: match level.fate {
+            Fate::Overturned => 1.0,
+            _ => level.peak_ratio,
+        },
     }));
     if !verdict.agrees() {
         all.push(Finding::ModelsDisagree {
@@ -179,12 +182,15 @@ pub(crate) fn ill_conditioned(
     let changes = &report.conditioning.changes;
     // a solution that ends before anything rocks is of no history
     let ends_at_once = report.left_ground_s.is_some() && verdict.housner.peak_ratio < ROCKS;
-    (report.lifted && !verdict.well_conditioned && !ends_at_once).then(|| Finding::IllConditioned {
-        moved_by_width: changes.width[0],
-        moved_by_scale: changes.scale[0],
-        moved_by_restitution: Some(changes.restitution[0]),
-        holds_to_s: report.holds_to_s,
-        springs_judged,
+    let hardly = verdict.finite_elements.peak_ratio < HARDLY_ROCKS;
+    (report.lifted && !verdict.well_conditioned && !ends_at_once && !hardly).then(|| {
+        Finding::IllConditioned {
+            moved_by_width: changes.width[0],
+            moved_by_scale: changes.scale[0],
+            moved_by_restitution: Some(changes.restitution[0]),
+            holds_to_s: report.holds_to_s,
+            springs_judged,
+        }
     })
 }
 

@@ -7,7 +7,7 @@ mod lines;
 mod warnings;
 
 use super::{
-    Run, Table, Unit,
+    Run, Section, Table, Unit,
     displacements::{DIFFERENCE, FRICTION, LARGEST},
     peak_table,
 };
@@ -145,7 +145,8 @@ pub fn screen(run: &Run, written: &Written) -> String {
     let least: usize = warnings.iter().map(Warned::least_lines).sum();
     let answers = CROWDING.iter().map(|crowding| answer(run, written, *crowding));
     let fits = |(level, lines): &(usize, Vec<String>)| {
-        room(lines) >= if *level == 0 { wanted } else { least } || level + 1 == CROWDING.len()
+        let enough = room(lines) >= if *level == 0 { wanted } else { least };
+        lines.len() < LINES && enough || level + 1 == CROWDING.len()
     };
     let mut lines = answers.enumerate().find(fits).map(|(_, lines)| lines).unwrap_or_default();
     lines.truncate(LINES - 1);
@@ -162,6 +163,21 @@ fn sheet_of(run: &Run) -> Option<&str> {
     run.sap2000.then(|| program.short())
 }
 
+impl Run {
+    /// With what is to be said of its decks, for the report.
+    pub fn with_decks(mut self, left_out: &[String]) -> Self {
+        if !left_out.is_empty() {
+            self.sections.push(Section {
+                id: "decks",
+                title: "Decks that are left out or end early".into(),
+                text: left_out.iter().map(|line| format!("{line}.")).collect(),
+                ..Section::default()
+            });
+        }
+        self
+    }
+}
+
 /// All but the warnings.
 fn answer(run: &Run, written: &Written, crowding: Crowding) -> Vec<String> {
     let mut lines = Vec::new();
@@ -175,7 +191,7 @@ fn answer(run: &Run, written: &Written, crowding: Crowding) -> Vec<String> {
     lines.extend(forces::lines(run, crowding.tight));
     springs(run, &mut lines);
     if let Some(accuracy) = &run.accuracy {
-        let parts = accuracy.short(crowding.measured, run.taken.record.is_some());
+        let parts = accuracy.short(crowding.measured, run.unjudged());
         // as many parts as there is room for
         let told = (1..=parts.len()).rev().map(|shown| {
             let mut some = Vec::new();

@@ -240,6 +240,7 @@ impl ElasticRun {
         texts.write(out)?;
         let figures: Vec<Figure> = if output.figures { pictures::draw(self)? } else { Vec::new() };
         rigid_pictures::save(out, &figures)?;
+        let run = run.with_decks(&texts.left_out);
         write_report(out, output, &run, &figures)?;
         folder.finish()?;
         Ok(texts.left_out)

@@ -81,9 +81,17 @@ pub fn save(rigid: &RigidRun, out: &Path, output: Output) -> Result<Vec<String>,
         let decks = run_decks(&parameters, rigid)?;
         decks.write(out).map(|()| decks.left_out)
     };
-    let (left_out, pictures) = rayon::join(written, || draw(rigid, out, &run, output));
-    let left_out = left_out?;
-    pictures?;
+    let RigidRun { case, job, front, both, .. } = rigid;
+    let figures = || match output.figures {
+        true => Pictures { case, job, both, front }.draw(),
+        false => Ok(Vec::new()),
+    };
+    let (left_out, figures) = rayon::join(written, figures);
+    let (left_out, figures) = (left_out?, figures?);
+    let run = run.with_decks(&left_out);
+    let (saved, page) =
+        rayon::join(|| pictures::save(out, &figures), || write_report(out, output, &run, &figures));
+    saved.and(page)?;
     folder.finish()?;
     Ok(left_out)
 }
@@ -98,6 +106,7 @@ pub fn texts(rigid: &RigidRun, out: &Path) -> Result<RunTexts, FolderError> {
     let run = rigid.said(parameters.clone());
     let mut texts = tables(rigid, &parameters, &run);
     let decks = run_decks(&parameters, rigid)?;
+    let run = run.with_decks(&decks.left_out);
     texts.files.push(("report.html".into(), page(&run, &[])));
     texts.files.extend(decks.files);
     Ok(RunTexts { left_out: decks.left_out, ..texts })
@@ -122,16 +131,6 @@ fn tables(rigid: &RigidRun, parameters: &Parameters, run: &Run) -> RunTexts {
         files: files.into_iter().map(|(name, text)| (name.to_string(), text)).collect(),
         left_out: Vec::new(),
     }
-}
-
-/// Figures and the page.
-fn draw(rigid: &RigidRun, out: &Path, run: &Run, output: Output) -> Result<(), FolderError> {
-    let RigidRun { case, job, front, both, .. } = rigid;
-    let figures =
-        if output.figures { Pictures { case, job, both, front }.draw()? } else { Vec::new() };
-    let (saved, page) =
-        rayon::join(|| pictures::save(out, &figures), || write_report(out, output, run, &figures));
-    saved.and(page)
 }
 
 /// `parameters.json` as it stands in a folder.

@@ -8,7 +8,8 @@
 //!                   shear moment/|D|;  standing, both feet take F/2:  moment W b/2
 //! ```
 //!
-//! An impact's impulse is not among them. A force holds if, later than 0.1/p after every
+//! An impact's impulse is not among them. On springs alone, near a touch-down, the body bears its
+//! weight under the vertical motion. A force holds if, later than 0.1/p after every
 //! touch-down, its largest value on the springs is within 5 % of Housner's.
 
 use crate::{
@@ -50,8 +51,15 @@ pub fn design_forces(
     let (sole, mut rows) = match softer {
         Some(softer) => {
             let peaks = |matched: &Match, history: &History, demands: &Demands| {
-                let kept = all_between(body, dt, history, until([matched.overturned_fem_s, None]));
-                on_springs(kind, body, dt, (history, demands), &kept)
+                let samples = until([matched.overturned_fem_s, None]).min(history.motion.len());
+                let kept = all_between(body, dt, history, samples);
+                let mut peaks = on_springs(kind, body, dt, (history, demands), &kept);
+                let all = &history.forces.both[0][..samples];
+                if let Some((i, n)) = borne_in_landings(body.mass, record.up(), all, &kept) {
+                    let side = history.forces.both[1][i].signum();
+                    bear(kind, body, (i as f64 * dt, n, side), &mut peaks);
+                }
+                peaks
             };
             let own = match &both.with {
                 Some(with) => peaks(&with.matched, &with.history, &with.demands),
@@ -233,6 +241,37 @@ fn on_springs(
     peaks
 }
 
+/// Near landings, at the other samples than `kept`, what a body that presses on the ground (`sum`,
+/// N) bears at least: its weight under the vertical motion (m/s2). The largest of it (N), and its
+/// sample; nothing without a vertical motion. A landing adds its impulse, which is not a design
+/// force.
+fn borne_in_landings(mass: f64, up: &[f64], sum: &[f64], kept: &[usize]) -> Option<(usize, f64)> {
+    let near = |i: &usize| kept.binary_search(i).is_err() && sum[*i] > 0.0;
+    let borne = |i: usize| (i, mass * (GRAVITY + up[i]));
+    let all = (0..sum.len().min(up.len())).filter(near).map(borne);
+    all.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, n)| *n > 0.0)
+}
+
+/// A vertical force N at a time (s), on the left corner of a block (side 1) or on the right one
+/// (-1), or on one leg of a frame, where its peaks are less.
+fn bear(
+    kind: Kind,
+    body: &Body<f64>,
+    (time, n, side): (f64, f64, f64),
+    peaks: &mut [TimedPeak; 4],
+) {
+    let [_, _, moment, axial] = peaks;
+    let (along, arm) = match kind {
+        Kind::Block => (n, n * body.half_width),
+        Kind::AFrame => (n * body.height / body.radius(), 0.0),
+    };
+    for (peak, value) in [(moment, side * arm), (axial, -along)] {
+        if value.abs() > peak.value.abs() {
+            *peak = TimedPeak { value, time };
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -290,6 +329,24 @@ mod tests {
         let axial = all.axial_n.unwrap();
         assert!((axial.value.unwrap() / (-300.0 * GRAVITY) - 1.0).abs() < 1e-9, "{axial:?}");
         assert!(axial.change.unwrap() < 1e-3, "{axial:?}");
+    }
+
+    /// Near landings a block bears m (g + a_v) at least, on one corner, while it presses.
+    #[test]
+    fn a_landing_hides_no_vertical_motion() {
+        let up = [0.0, 0.0, 18.0, 20.0, 0.0];
+        let sum = [6e3, 6e3, 9e3, 0.0, 6e3];
+        let found = borne_in_landings(640.0, &up, &sum, &[0, 1, 4]);
+        assert_eq!(found, Some((2, 640.0 * (GRAVITY + 18.0))));
+        assert_eq!(borne_in_landings(640.0, &[], &sum, &[0]), None);
+        let body = Structure::block(2.1, 0.45, 640.0).unwrap().body();
+        let mut peaks = [TimedPeak { value: 12e3, time: 1.0 }; 4];
+        bear(Kind::Block, &body, (2.0, 17.8e3, -1.0), &mut peaks);
+        assert_eq!(peaks[3], TimedPeak { value: -17.8e3, time: 2.0 });
+        assert_eq!([peaks[0].value, peaks[2].value], [12e3; 2]);
+        peaks[2].value = 1e3;
+        bear(Kind::Block, &body, (2.0, 17.8e3, -1.0), &mut peaks);
+        assert!((peaks[2].value + 17.8e3 * 0.225).abs() < 1e-9);
     }
 
     /// A block's base moment is at most W b, which it reaches when it lifts; its shear then is m g

@@ -1,6 +1,6 @@
 //! What is to be said of springs for a program with fixed time steps.
 
-use crate::program::lost;
+use crate::{displacements::LEAST_DRIFT, program::lost};
 use fixed_steps::{
     FixedStepHistory, FixedStepOutcome, FixedStepProgram, GaveUp, expected::step_for,
 };
@@ -55,6 +55,8 @@ pub(super) fn on_record(
     let stands = both.matched.overturned_housner_s.is_none()
         && both.rocking.left_ground().is_none()
         && matches!(history.outcome, FixedStepOutcome::Finished);
-    let reference = parameters.peaks.as_ref()?.reference.top_displacement_m;
-    Some(ProgramOnRecord::of(stands.then(|| [of(&history.motion), reference]), gives_up))
+    let reference = parameters.peaks.as_ref()?.reference;
+    let compared = stands && reference.drift_ratio > LEAST_DRIFT;
+    let both = compared.then(|| [of(&history.motion), reference.top_displacement_m]);
+    Some(ProgramOnRecord::of(both, gives_up))
 }

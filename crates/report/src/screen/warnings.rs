@@ -21,7 +21,7 @@ fn urgency(finding: &Finding) -> usize {
         Finding::Sliding { .. } => 1,
         Finding::VerticalLeftOut { .. } => 2,
         Finding::ForcesHeldInPart { .. } | Finding::ForceWithheld { .. } => 4,
-        Finding::FeetApart { .. } => 6,
+        Finding::FeetApart { .. } => DECK,
         _ => 5,
     }
 }

@@ -11,7 +11,7 @@ mod message;
 mod not_done;
 
 pub use force_name::ForceName;
-pub use message::apart_words;
+pub use message::{HARDLY_ROCKS, apart_words};
 pub use not_done::NotDone;
 
 /// How much a finding weighs.

@@ -18,6 +18,12 @@ fn on(model: FindingModel) -> &'static str {
 /// Part by which largest rotations on springs and without differ, both of which are then said.
 const SHARES_DIFFER: f64 = 0.05;
 
+/// Share of overturning below which a body that lifts does not rock to speak of.
+pub const HARDLY_ROCKS: f64 = 1e-4;
+
+/// What is said of such a one.
+const HARDLY: &str = "it lifts, but does not rock to speak of";
+
 fn s(time: f64) -> String {
     format!("{} s", significant(time, 4))
 }
@@ -117,11 +123,15 @@ impl Finding {
                 let other = reference_share.filter(differs).map_or(String::new(), |reference| {
                     format!(" on springs, {} without", percent(reference))
                 });
+                let largest = percent(*share_of_overturning);
+                if *share_of_overturning < HARDLY_ROCKS {
+                    return format!("{HARDLY}: largest rotation {largest} of overturning");
+                }
                 format!(
                     "it rocks and stands{}: largest rotation {}{} of overturning{other}{}",
                     if *if_feet_hold { ", if its feet hold" } else { "" },
                     if *of_columns { "of columns " } else { "" },
-                    percent(*share_of_overturning),
+                    largest,
                     largest_at_s.map_or(String::new(), |time| format!(", at {}", s(time)))
                 )
             }
@@ -153,11 +163,15 @@ impl Finding {
             Self::PivotLeavesGround { time_s } => {
                 format!("Housner's pivot leaves the ground at {} and his solution ends", s(*time_s))
             }
-            Self::WithoutVertical { does, share_of_overturning } => format!(
-                "without the vertical component it {does}; its largest rotation is {} of \
-                    overturning",
-                percent(*share_of_overturning)
-            ),
+            Self::WithoutVertical { does, share_of_overturning } => {
+                let largest = match *share_of_overturning {
+                    share if share < 1.0 => {
+                        format!("; its largest rotation is {} of overturning", percent(share))
+                    }
+                    _ => String::new(),
+                };
+                format!("without the vertical component it {does}{largest}")
+            }
             _ => String::new(),
         }
     }
