@@ -255,6 +255,7 @@ impl ElasticRun {
         let parameters = self.filed(out);
         let run = self.said(parameters.clone());
         let mut texts = self.tables_and_decks(&parameters, &run)?;
+        let run = run.with_decks(&texts.left_out);
         texts.files.push(("report.html".into(), page(&run, &[])));
         Ok(texts)
     }
