@@ -82,3 +82,17 @@ def test_springs_follow_the_accuracy_and_what_lands(ops: Any) -> None:
         springs_for(ops, [1, 2], 0.5)
     with pytest.raises(ValueError, match="give the tags of nodes that are in the model"):
         springs_for(ops, [1, 77])
+
+
+def test_a_space_model_and_a_foot_that_carries_nothing_are_refused(ops: Any) -> None:
+    feet = soft_frame(ops)
+    ops.node(9, 20.0, 0.0)
+    ops.mass(9, 1e3, 1e3, 0.0)
+    for nodes in ([1, 9], [*feet, 9]):
+        with pytest.raises(ValueError, match="springs_for: node 9 carries none of the structure: no element joins it"):
+            springs_for(ops, nodes)
+    ops.wipe()
+    ops.model("basic", "-ndm", 3, "-ndf", 6)
+    ops.node(1, 0.0, 0.0, 0.0)
+    with pytest.raises(ValueError, match=r"springs_for: node 1 is in a space model \(ndm 3\)"):
+        springs_for(ops, [1])

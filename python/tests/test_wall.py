@@ -134,6 +134,39 @@ def test_halved_steps_and_springs_come_as_a_table(ops: Any) -> None:
         stepper.converged(record, wall.build, quantities, forces=quantities)
 
 
+@pytest.mark.parametrize(
+    ("quantity", "words"),
+    [
+        (lambda: math.nan, "converged: 'M' is nan at t = .* s; a quantity is a finite number"),
+        (lambda: None, "converged: 'M' is no number at t = .* s: "),
+        (lambda: 0.0, "converged: 'M' is zero throughout, there is nothing to compare"),
+    ],
+)
+def test_what_is_no_number_or_zero_is_not_certified(quantity: Any, words: str, ops: Any) -> None:
+    record = RECORDS["El Centro x 2"].truncated(0.2)
+    wall.build()
+    nodes = [wall.LEFT, wall.RIGHT]
+    stepper = Stepper(ops, add_feet(ops, nodes, springs_for(ops, nodes)))
+    stepper.gravity()
+    with pytest.raises(ValueError, match=words):
+        stepper.converged(record, wall.build, forces={"M": quantity})
+
+
+def test_another_structure_is_told_from_that_of_the_history(ops: Any) -> None:
+    record = RECORDS["El Centro x 2"].truncated(2.5)
+    wall.build()
+    nodes = [wall.LEFT, wall.RIGHT]
+    stepper = Stepper(ops, add_feet(ops, nodes, springs_for(ops, nodes)))
+    stepper.gravity()
+    wall.dissipaters()
+    history = stepper.run(record)
+    with pytest.warns(gs.GroundspringWarning, match="its first run is not the history that run gave: largest uplift"):
+        stepper.converged(record, wall.build, forces={"tendon": wall.tendon})  # `after` is forgotten
+    assert history.force_changes is None
+    with pytest.raises(ValueError, match="run: scale is nan; give a finite number"):
+        stepper.run(record, scale=math.nan)
+
+
 def test_a_force_that_moves_with_the_springs_is_not_the_structures() -> None:
     names = ("as asked", "accuracy halved", "longest step halved", "springs twice", "springs four times", TWIN_NAME)
     moments, shears = (10.0, 10.1, 10.2, 9.9, 10.49, 10.6), (5.0, 5.0, 5.0, 5.1, 5.25, 5.0)

@@ -141,7 +141,7 @@ def converged(
     **options: Any,
 ) -> Convergence:
     """See `Stepper.converged`."""
-    wanted = [*quantities.values(), *forces.values()]
+    wanted = {**quantities, **forces}
     longest = 0.5 * record.dt if stepper.longest is None else stepper.longest
     as_it_was = (1.0, 1.0, 1.0, 1.0)
     runs = {
@@ -160,8 +160,8 @@ def converged(
         largest = [0.0] * len(wanted)
 
         def look(_: float, largest: list[float] = largest) -> None:
-            for i, quantity in enumerate(wanted):
-                largest[i] = max(largest[i], abs(float(quantity())))
+            for i, (quantity, of) in enumerate(wanted.items()):
+                largest[i] = max(largest[i], abs(_number(stepper.ops, quantity, of)))
 
         once.on_step = look
         scale = stronger * options.get("scale", 1.0)
@@ -170,8 +170,25 @@ def converged(
         if progress:
             print(f"converged: run {i} of {len(runs)}, {name}: {once.steps.taken} steps", file=sys.stderr)
         feet = (float(np.abs(history.largest_vertical).max()), float(np.abs(history.largest_horizontal).max()))
+        still = [quantity for quantity, value in zip(wanted, largest, strict=True) if value == 0.0]
+        if i == 1 and still:
+            raise ValueError(
+                f"converged: {still[0]!r} is zero throughout, there is nothing to compare: does it ask for the right "
+                "node, element and direction? Leave it out otherwise"
+            )
         rows.append(Refined(name, once.steps.taken, (float(history.uplift.max()), *largest, *feet)))
     return Convergence(["uplift", *quantities], rows, [*forces, *FEET], histories[0])
+
+
+def _number(ops: Any, name: str, of: Callable[[], float]) -> float:
+    """A quantity, which must be a finite number."""
+    try:
+        value = float(of())
+    except Exception as error:  # a user's function
+        raise ValueError(f"converged: {name!r} is no number at t = {ops.getTime():.4g} s: {error}") from error
+    if not math.isfinite(value):
+        raise ValueError(f"converged: {name!r} is {value} at t = {ops.getTime():.4g} s; a quantity is a finite number")
+    return value
 
 
 def _again(stepper: Stepper, build: Callable[[], object], finer: float, longest: float, stiffer: float) -> Stepper:

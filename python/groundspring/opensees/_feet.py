@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .._native import GRAVITY, GroundspringWarning, Springs
-from ._measure import Model, NotMeasured, check_free, node_tags
+from ._measure import Model, NotMeasured, check_free, check_plane, node_tags
 from ._springs_for import FeetSprings, tell_untied
 
 Array = npt.NDArray[np.float64]
@@ -227,15 +227,7 @@ def _check(ops: Any, nodes: list[int], springs: Springs | FeetSprings, complianc
     for node in nodes:
         if node not in there:
             raise ValueError(f"add_feet: node {node} is not in the model; make it before its foot")
-        ndm, ndf = len(ops.nodeCoord(node)), len(ops.nodeDisp(node))
-        if ndm == 3:
-            raise ValueError(
-                f"add_feet: node {node} is in a space model (ndm 3); these springs are for plane rocking, and nothing "
-                "would hold the feet out of the plane: the body would roll over and twist; "
-                "make the model plane (ndm 2, ndf 3)"
-            )
-        if (ndm, ndf) != (2, 3):
-            raise ValueError(f"add_feet: node {node} has ndm {ndm}, ndf {ndf}; a plane frame has ndm 2, ndf 3")
+    check_plane(ops, nodes, "add_feet")
     check_free(ops, nodes, "add_feet")
     for name, value in (("compliance", compliance), ("friction", friction)):
         if not (math.isfinite(value) and value >= 0.0):

@@ -41,6 +41,20 @@ def node_tags(nodes: Sequence[int], call: str) -> list[int]:
         ) from None
 
 
+def check_plane(ops: Any, nodes: Sequence[int], call: str) -> None:
+    """Refuse nodes of a model that is no plane frame."""
+    for node in nodes:
+        ndm, ndf = len(ops.nodeCoord(node)), len(ops.nodeDisp(node))
+        if ndm == 3:
+            raise ValueError(
+                f"{call}: node {node} is in a space model (ndm 3); these springs are for plane rocking, and nothing "
+                "would hold the feet out of the plane: the body would roll over and twist; "
+                "make the model plane (ndm 2, ndf 3)"
+            )
+        if (ndm, ndf) != (2, 3):
+            raise ValueError(f"{call}: node {node} has ndm {ndm}, ndf {ndf}; a plane frame has ndm 2, ndf 3")
+
+
 def check_free(ops: Any, nodes: Sequence[int], call: str) -> None:
     """Refuse nodes that are fixed, or that stand on springs already."""
     fixed = set(ops.getFixedNodes() or [])
@@ -103,7 +117,12 @@ class Model:
         feet = [dofs[node][k] for node in nodes for k in (0, 1)]
         if min(feet) < 0:
             raise NotMeasured("a foot is held by a constraint between nodes")
-        rows = _connected((stiffness != 0.0) | (mass != 0.0), feet)
+        links = (stiffness != 0.0) | (mass != 0.0)
+        for node in nodes:
+            own = set(_connected(links, dofs[node][:2]))
+            if all(other == node or own.isdisjoint(of) for other, of in dofs.items()):
+                raise NotMeasured(f"node {node} carries none of the structure: no element joins it to another node")
+        rows = _connected(links, feet)
         index = {old: new for new, old in enumerate(rows)}
         self.there = {node for node, of in dofs.items() if any(dof in index for dof in of)}
         self.stiffness, self.mass = (a[np.ix_(rows, rows)] for a in (stiffness, mass))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 
 from .._native import GroundspringWarning, Springs, _units_for
-from ._measure import Model, NotMeasured, check_free, node_tags
+from ._measure import Model, NotMeasured, check_free, check_plane, node_tags
 
 if TYPE_CHECKING:
     from ._feet import Feet
@@ -104,6 +104,7 @@ def springs_for(ops: Any, nodes: Sequence[int], accuracy: float = 0.01, *, const
     there = set(ops.getNodeTags())
     if not nodes or len(set(nodes)) < len(nodes) or not there.issuperset(nodes):
         raise ValueError(f"springs_for: nodes are {nodes}; give the tags of nodes that are in the model, each once")
+    check_plane(ops, nodes, "springs_for")
     check_free(ops, nodes, "springs_for")
     try:
         model = Model(ops, nodes, constraints)

@@ -140,6 +140,12 @@ class Stepper(Staging):
         if not any((group.forces()[:, 1] > 0.0).any() for group in self.groups):
             raise ValueError("run: no foot presses on the ground; call stepper.gravity() first")
         self._check_added()
+        try:
+            finite = math.isfinite(scale)
+        except TypeError:
+            finite = False
+        if not finite:
+            raise ValueError(f"run: scale is {scale!r}; give a finite number")
         dt, start = record.dt, ops.getTime()
         both = record if vertical is None else record.with_vertical(vertical)
         shaken = both if scale == 1.0 else both.scaled(scale)
@@ -226,6 +232,13 @@ class Stepper(Staging):
             # another `build` or `after` would be another history
             if ours.shape == theirs.shape and np.allclose(ours, theirs, rtol=1e-6, atol=1e-9):
                 self.history.force_changes = found.force_changes
+            else:
+                text = (
+                    "converged: its first run is not the history that run gave: largest uplift "
+                    f"{theirs.max():.4g} m, and {ours.max():.4g} m there. Do build and after make the same model? What "
+                    "is said of forces is of build's"
+                )
+                warnings.warn(text, GroundspringWarning, stacklevel=2)
         return found
 
     def _check_count(self) -> None:
