@@ -38,6 +38,7 @@ pub(super) fn lines(run: &Run, tight: bool) -> Vec<String> {
     let mark = if some && !every && !run.one_of_many() { "*" } else { "" };
     let doubt = match run.one_of_many() {
         true => Some("of this one motion: design by many".to_string()),
+        false if some && every => Some("not predictable: design by many".to_string()),
         false => some.then(|| format!("{mark} not predictable").trim_start().to_string()),
     };
     let alone = run.peaks.and_then(|pair| pair.reference_ends_s);
