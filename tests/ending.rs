@@ -206,3 +206,43 @@ fn what_is_out_of_reach_is_refused_early_with_the_reason() {
     );
     assert!(!folder.path().join("out").exists());
 }
+
+/// A block on a vertical motion of 1.84 g: what a deck ends early by is whole in the report, and
+/// near landings the block bears m (g + a_v).
+#[test]
+fn a_deck_that_ends_early_is_told_in_the_report() {
+    let folder = tempfile::tempdir().unwrap();
+    let (screen, report) = vertical(folder.path(), 0.45, 1.0);
+    assert!(report.contains("Decks that are left out or end early"), "{screen}");
+    assert!(report.contains("another integrator or another step"), "{screen}");
+    assert!(screen.contains("axial compression  17.81 kN"), "{screen}");
+}
+
+/// A block that lifts by nanometres: no model is compared on it, and a screen with so few warnings
+/// keeps the settings of a program.
+#[test]
+fn a_motion_of_nanometres_is_not_called_rocking() {
+    let folder = tempfile::tempdir().unwrap();
+    let (screen, _) = vertical(folder.path(), 1.2, 0.5);
+    assert!(screen.contains("It lifts, but does not rock to speak of"), "{screen}");
+    assert!(!screen.contains("Ill-conditioned") && !screen.contains("1000 %"), "{screen}");
+    assert!(screen.contains("  set to  HHT") && screen.contains("nothing rocks"), "{screen}");
+}
+
+/// Screen and report of a block of 2.1 m and 640 kg on the record of Te Mara Farm.
+fn vertical(folder: &std::path::Path, width: f64, scale: f64) -> (String, String) {
+    let record = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/records/20161113_110259_WTMC_20.V2A");
+    let case = format!(
+        "[structure]\nkind = 'block'\nheight_m = 1.05\nwidth_m = {width}\nmass_kg = 640\n\
+         [record]\nfile = '{record}'\nvertical = 'auto'\nscale = {scale:?}\nduration_s = 90\n"
+    );
+    std::fs::write(folder.join("case.toml"), case).unwrap();
+    let ran = std::process::Command::new(env!("CARGO_BIN_EXE_tune"))
+        .current_dir(folder)
+        .args(["run", "case.toml", "--quiet", "--no-figures", "--no-front"])
+        .output()
+        .unwrap();
+    assert!(ran.status.success(), "{}", String::from_utf8_lossy(&ran.stderr));
+    let report = std::fs::read_to_string(folder.join("out/report.html")).unwrap();
+    (String::from_utf8_lossy(&ran.stdout).into_owned(), report)
+}
