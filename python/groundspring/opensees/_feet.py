@@ -17,6 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .._native import GRAVITY, GroundspringWarning, Springs
+from ._checks import check_springs
 from ._measure import Model, NotMeasured, check_free, check_plane, node_tags
 from ._springs_for import FeetSprings, tell_untied
 
@@ -27,6 +28,9 @@ HOLDS = 1e7
 
 HEAVY = 3.0
 """Mass that springs are for over what lands, from which on it is told: absorbers then weigh more than the foot."""
+
+ANOTHER = 0.03
+"""Share by which mass may differ from what `springs_for` measured: masses of a few fittings, put on in between."""
 
 FIRST_TAG = 1_000_000
 """Tags begin here, or beyond the model's largest: materials and friction models cannot be asked for theirs."""
@@ -151,11 +155,13 @@ def add_feet(
     Call it after `ops.rayleigh`, which would damp the absorbers.
 
     ValueError: a model that is not plane, nodes that are not there or fixed, that have feet already, or that have no
-    mass under columns softer than the springs; numbers that mean nothing. GroundspringWarning: springs for three times
+    mass under columns softer than the springs; springs that `springs_for` measured on another model; numbers that mean
+    nothing. GroundspringWarning: springs for three times
     the mass that lands, or more. UntiedFeetWarning: three or more feet that nothing holds together, if `springs_for`
     has not told it.
     """
     nodes = node_tags(nodes, "add_feet")
+    check_springs(springs, nodes)
     _check(ops, nodes, springs, compliance, friction)
     model = _check_lands(ops, nodes, springs) if measure and compliance == 0.0 else None
     feet = Feet(ops, nodes, springs, compliance)
@@ -228,15 +234,16 @@ def _check(ops: Any, nodes: list[int], springs: Springs | FeetSprings, complianc
         if node not in there:
             raise ValueError(f"add_feet: node {node} is not in the model; make it before its foot")
     check_plane(ops, nodes, "add_feet")
+    if (ndf := int(np.ravel(ops.getNDF())[0])) != 3:
+        raise ValueError(
+            f"add_feet: the model makes nodes of ndf {ndf} as it was last set; the springs' nodes need 3: call "
+            'ops.model("basic", "-ndm", 2, "-ndf", 3), which wipes nothing, before add_feet'
+        )
     check_free(ops, nodes, "add_feet")
     for name, value in (("compliance", compliance), ("friction", friction)):
         if not (math.isfinite(value) and value >= 0.0):
             raise ValueError(f"add_feet: {name} is {value!r}; give a finite number, zero or greater")
     units = [springs] if isinstance(springs, Springs) else list(springs)
-    if len(units) not in (1, len(nodes)):
-        raise ValueError(
-            f"add_feet: springs are for {len(units)} feet, nodes are {nodes}; give one for all or one a node"
-        )
     stiffest = max(max(unit.vertical.k1, unit.horizontal.k1) for unit in units)
     if compliance * stiffest >= 1.0:
         raise ValueError(
@@ -252,12 +259,16 @@ def _check_lands(ops: Any, nodes: list[int], springs: Springs | FeetSprings) -> 
     units = [springs] * len(nodes) if isinstance(springs, Springs) else list(springs)
     omega = min(math.sqrt(unit.vertical.k1 / unit.mass) for unit in units)
     try:
-        model = Model(ops, nodes)
+        if isinstance(springs, Springs):
+            model = Model(ops, nodes)
+            tell_untied(model, 3)  # springs_for tells it of its own
+        else:
+            model = Model(ops, nodes, springs.measured.constraints)
         lands, massless = model.effective(omega), model.springlike(omega)
-        if isinstance(springs, Springs):  # springs_for has told it
-            tell_untied(model, 3)
     except NotMeasured:
         return None
+    if isinstance(springs, FeetSprings):
+        _check_same(model, springs)
     for node, mass, unit in zip(nodes, lands, units, strict=True):
         stiffness = mass * omega**2
         if node in massless and stiffness < 0.5 * unit.vertical.k1:
@@ -276,6 +287,22 @@ def _check_lands(ops: Any, nodes: list[int], springs: Springs | FeetSprings) -> 
         )
         warnings.warn(text, GroundspringWarning, stacklevel=3)
     return model
+
+
+def _check_same(model: Model, springs: FeetSprings) -> None:
+    """Refuse springs that were measured on another model: by the structure's mass, and by what lands at each foot."""
+    was = springs.measured
+    masses = [("the structure on nodes " + ", ".join(map(str, model.nodes)), "weighs", was.total, model.total)]
+    masses += [
+        (f"what lands at node {node}", "is", before, now)
+        for node, before, now in zip(model.nodes, springs.lands, model.effective(was.omega).tolist(), strict=True)
+    ]
+    for what, verb, before, now in masses:
+        if abs(now / before - 1.0) > ANOTHER:
+            raise ValueError(
+                f"add_feet: {what} {verb} {now:.4g} kg, and {before:.4g} kg where springs_for measured it: the springs "
+                "are another model's; call springs_for on this one, as it stands now"
+            )
 
 
 def _check_mass(ops: Any, mass: float) -> None:

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import operator
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -34,7 +35,7 @@ COUPLED = 0.1
 def node_tags(nodes: Sequence[int], call: str) -> list[int]:
     """The nodes as a list of whole numbers."""
     try:
-        return [int(node) for node in nodes]
+        return [operator.index(node) for node in nodes]
     except TypeError:
         raise ValueError(
             f"{call}: nodes are {nodes!r}; give a list of the tags of the nodes that stand on the ground"
@@ -52,7 +53,11 @@ def check_plane(ops: Any, nodes: Sequence[int], call: str) -> None:
                 "make the model plane (ndm 2, ndf 3)"
             )
         if (ndm, ndf) != (2, 3):
-            raise ValueError(f"{call}: node {node} has ndm {ndm}, ndf {ndf}; a plane frame has ndm 2, ndf 3")
+            raise ValueError(
+                f"{call}: node {node} has ndm {ndm}, ndf {ndf}; a foot needs a rotation, as in a plane frame (ndm 2, "
+                'ndf 3): make its nodes after ops.model("basic", "-ndm", 2, "-ndf", 3), and fix the rotation of those '
+                "where only trusses meet"
+            )
 
 
 def check_free(ops: Any, nodes: Sequence[int], call: str) -> None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from numbers import Real
 from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
@@ -21,13 +23,33 @@ GIVE = 0.1
 """Give of the stance over the accuracy: where the search for springs of an elastic structure begins, too."""
 
 
+@dataclass(frozen=True)
+class Measured:
+    """What springs were asked for and measured with.
+
+    accuracy     asked of displacements and uplift
+    total        mass of the structure on these feet, kg
+    omega        at which what lands was measured, rad/s
+    constraints  handler of the model's constraints between nodes
+    """
+
+    accuracy: float
+    total: float
+    omega: float
+    constraints: str
+
+
 class FeetSprings(Sequence[Springs]):
-    """Units under every foot, in the order of the nodes. Made by `springs_for`, taken by `add_feet`.
+    """Units under every foot, in the order of the nodes. Made by `springs_for`, taken by `add_feet`. A slice is for the
+    feet in it.
 
     nodes           tags of the feet
     lands           mass of what lands at each foot, kg: what it feels vertically within 1/Omega_n
     parts           feet that belong to one rigid part: tuples of tags
-    give            energy of the springs over that of the structure, under its weight's worth sideways and upwards
+    give            energy in the springs, k1 and k2, over that in the structure's own elements, under its weight put on
+                    sideways and upwards, without unit. The vertical k1 have a tenth of the accuracy; k2, which is
+                    softer, has most of the rest
+    measured        what they were asked for and measured with: accuracy, mass of the structure
     k               k2/k1 of the vertical units, without unit
     landing_speed   of a foot that fell from half of what overturns, m/s
     """
@@ -41,9 +63,11 @@ class FeetSprings(Sequence[Springs]):
         give: float,
         k: float,
         landing_speed: float,
+        measured: Measured,
     ) -> None:
         self.nodes, self._units, self.lands = tuple(nodes), tuple(units), tuple(lands)
         self.parts, self.give, self.k, self.landing_speed = tuple(parts), give, k, landing_speed
+        self.measured = measured
 
     def __len__(self) -> int:
         return len(self._units)
@@ -51,9 +75,15 @@ class FeetSprings(Sequence[Springs]):
     @overload
     def __getitem__(self, index: int) -> Springs: ...
     @overload
-    def __getitem__(self, index: slice) -> tuple[Springs, ...]: ...
-    def __getitem__(self, index: int | slice) -> Springs | tuple[Springs, ...]:
-        return self._units[index]
+    def __getitem__(self, index: slice) -> FeetSprings: ...
+    def __getitem__(self, index: int | slice) -> Springs | FeetSprings:
+        if not isinstance(index, slice):
+            return self._units[index]
+        nodes = self.nodes[index]
+        if not nodes:
+            raise ValueError(f"springs: {index} takes none of the {len(self)} feet; feet are counted from 0")
+        parts = [kept for part in self.parts if (kept := tuple(node for node in part if node in nodes))]
+        return self._with(nodes, self._units[index], self.lands[index], parts, self.give)
 
     def __iter__(self) -> Iterator[Springs]:
         return iter(self._units)
@@ -61,7 +91,17 @@ class FeetSprings(Sequence[Springs]):
     def stiffer(self, factor: float) -> FeetSprings:
         """The same, `factor` times as stiff, landing alike: `Springs.stiffer` of each."""
         units = [unit.stiffer(factor) for unit in self._units]
-        return FeetSprings(self.nodes, units, self.lands, self.parts, self.give / factor, self.k, self.landing_speed)
+        return self._with(self.nodes, units, self.lands, self.parts, self.give / factor)
+
+    def _with(
+        self,
+        nodes: Sequence[int],
+        units: Sequence[Springs],
+        lands: Sequence[float],
+        parts: Sequence[tuple[int, ...]],
+        give: float,
+    ) -> FeetSprings:
+        return FeetSprings(nodes, units, lands, parts, give, self.k, self.landing_speed, self.measured)
 
     @property
     def landings(self) -> tuple[float, ...]:
@@ -73,7 +113,10 @@ class FeetSprings(Sequence[Springs]):
             f"node {node}: {mass:.4g} kg on {unit.vertical.k1:.3g} N/m"
             for node, mass, unit in zip(self.nodes, self.lands, self._units, strict=True)
         )
-        return f"FeetSprings({each}; give {self.give:.2g})"
+        return (
+            f"FeetSprings({each}; for accuracy {self.measured.accuracy:g}: their energy under the weight is "
+            f"{100.0 * self.give:.2g} % of the structure's)"
+        )
 
 
 def springs_for(ops: Any, nodes: Sequence[int], accuracy: float = 0.01, *, constraints: str = "Plain") -> FeetSprings:
@@ -97,7 +140,7 @@ def springs_for(ops: Any, nodes: Sequence[int], accuracy: float = 0.01, *, const
     together.
     """
     nodes = node_tags(nodes, "springs_for")
-    if not 1e-4 <= accuracy <= 0.1:
+    if not (isinstance(accuracy, Real) and 1e-4 <= accuracy <= 0.1):
         raise ValueError(
             f"springs_for: accuracy is {accuracy!r}; give a share of the largest displacement from 1e-4 to 0.1"
         )
@@ -108,15 +151,16 @@ def springs_for(ops: Any, nodes: Sequence[int], accuracy: float = 0.01, *, const
     check_free(ops, nodes, "springs_for")
     try:
         model = Model(ops, nodes, constraints)
-        found = _found(model, GIVE * accuracy)
+        found = _found(model, float(accuracy), constraints)
         tell_untied(model, 2)
     except NotMeasured as error:
         raise ValueError(f"springs_for: {error}") from error
     return found
 
 
-def _found(model: Model, give: float) -> FeetSprings:
-    """Springs whose vertical k1 alone have this give."""
+def _found(model: Model, accuracy: float, constraints: str) -> FeetSprings:
+    """Springs whose vertical k1 alone give a tenth of the accuracy."""
+    give = GIVE * accuracy
     held = model.held()
     # k1 by the give of the vertical k1 alone, as `Standing` has it
     k1 = sum(float((h.reactions[:, 1] ** 2).sum()) / h.work for h in held) / give
@@ -144,7 +188,8 @@ def _found(model: Model, give: float) -> FeetSprings:
     first, second = ((h.reactions.tolist(), h.work, h.omega) for h in held)
     k, total, units = _units_for(model.total, (first, second), parts, give, speed)
     tags = [tuple(model.nodes[i] for i in part) for part, _, _ in parts]
-    return FeetSprings(model.nodes, units, lands.tolist(), tags, total, k, speed)
+    measured = Measured(accuracy, model.total, omega, constraints)
+    return FeetSprings(model.nodes, units, lands.tolist(), tags, total, k, speed, measured)
 
 
 class UntiedFeetWarning(GroundspringWarning):
