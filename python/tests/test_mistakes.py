@@ -1,7 +1,11 @@
-"""What one gets wrong with a model of one's own, and is told: arguments of another kind, springs of another model."""
+"""What one gets wrong with a model of one's own, and is told: arguments of another kind, feet that cannot lift,
+springs of another model, gravity that is missing."""
 
+import warnings
+from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 import pytest
 from test_feet import soft_frame
 
@@ -72,3 +76,134 @@ def test_springs_of_another_model_are_refused_with_both_masses(ops: Any) -> None
         add_feet(ops, nodes, springs)
     ops.mass(1, 1.01e3, 1.01e3, 0.0)
     assert add_feet(ops, nodes, springs.stiffer(8.0)).measured
+
+
+def test_a_stepper_says_what_it_takes(ops: Any) -> None:
+    feet, springs = on_feet(ops)
+    for wrong, words in (([1, 2], "feet has 1, a tag of a node; give what add_feet returned"), (springs, "a Springs;")):
+        with pytest.raises(TypeError, match=words):
+            Stepper(ops, wrong)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match=r"feet on nodes \[1, 2\] are given twice"):
+        Stepper(ops, [feet, feet])
+    with pytest.raises(ValueError, match="accuracy is 'x'; give a normalised error"):
+        Stepper(ops, feet, accuracy="x")  # type: ignore[arg-type]
+    stepper = Stepper(ops, feet)
+    stepper.gravity()
+    with pytest.raises(TypeError, match="run: record is a list; give a groundspring.Record"):
+        stepper.run([0.1] * 9)  # type: ignore[arg-type]
+
+
+def test_nodes_without_rotation_are_refused_at_the_feet_and_weigh_elsewhere(ops: Any) -> None:
+    ops.model("basic", "-ndm", 2, "-ndf", 2)
+    ops.node(1, 0.0, 0.0)
+    with pytest.raises(ValueError, match="node 1 has ndm 2, ndf 2; a foot needs a rotation"):
+        springs_for(ops, [1])
+    ops.wipe()
+    nodes = soft_frame(ops)
+    # a mass of ndf 2 that hangs on the frame
+    ops.model("basic", "-ndm", 2, "-ndf", 2)
+    ops.uniaxialMaterial("Elastic", 7, 210e9)
+    ops.node(900, 20.0, 0.0)
+    ops.fix(900, 1, 1)
+    ops.node(901, 20.0, 3.0)
+    ops.fix(901, 1, 0)
+    ops.mass(901, 500.0, 500.0)
+    ops.element("Truss", 900, 900, 901, 0.01, 7)
+    springs = springs_for(ops, nodes)
+    words = 'makes nodes of ndf 2 as it was last set; .* call ops.model\\("basic", "-ndm", 2, "-ndf", 3\\)'
+    with pytest.raises(ValueError, match=words):
+        add_feet(ops, nodes, springs)
+    ops.model("basic", "-ndm", 2, "-ndf", 3)
+    stepper = Stepper(ops, add_feet(ops, nodes, springs))
+    stepper.gravity()
+    assert stepper.weight == pytest.approx(42.5e3 * gs.GRAVITY, rel=1e-6)
+
+
+def fixed_foot(ops: Any, feet: Feet) -> None:
+    ops.fix(1, 1, 1, 0)
+
+
+def fixed_by_height(ops: Any, feet: Feet) -> None:
+    ops.fixX(0.0, 1, 0, 0)
+
+
+def fixed_by_pattern(ops: Any, feet: Feet) -> None:
+    ops.timeSeries("Constant", 9)
+    ops.pattern("Plain", 9, 9)
+    ops.sp(1, 2, 0.0)
+
+
+def freed_ground(ops: Any, feet: Feet) -> None:
+    ops.remove("sp", feet.grounds[1], 2)
+
+
+def fixed_absorber(ops: Any, feet: Feet) -> None:
+    ops.fix(feet.absorbers[0], 0, 1, 0)
+
+
+def bound(ops: Any, feet: Feet) -> None:
+    ops.equalDOF(feet.grounds[0], 1, 1, 2)
+
+
+HELD: list[tuple[Callable[[Any, Feet], None], str]] = [
+    (fixed_foot, r'node 1 has been fixed in direction 1 since add_feet: .* ops.remove\("sp", 1, 1\)'),
+    (fixed_by_height, "node 1 has been fixed in direction 1 since add_feet: the foot never lifts"),
+    (fixed_by_pattern, "node 1 has been fixed in direction 2 since add_feet: the foot never lifts"),
+    (freed_ground, "the ground under node 2, is no longer fixed in direction 2: nothing bears the foot; put it back"),
+    (fixed_absorber, "has been fixed in direction 2 since add_feet: the springs under node 1 do not give"),
+    (bound, "node 1 is bound to node .*, which is fixed in direction 1: the foot never lifts"),
+]
+
+
+@pytest.mark.parametrize(("change", "words"), HELD, ids=[change.__name__ for change, _ in HELD])
+def test_a_foot_that_cannot_lift_is_told_before_the_run(
+    change: Callable[[Any, Feet], None], words: str, ops: Any
+) -> None:
+    feet, _ = on_feet(ops)
+    stepper = Stepper(ops, feet)
+    change(ops, feet)
+    with pytest.raises(ValueError, match=f"gravity: .*{words}"):
+        stepper.gravity()
+    ops.wipe()
+    feet, _ = on_feet(ops)
+    stepper = Stepper(ops, feet)
+    stepper.gravity()
+    change(ops, feet)
+    for call in (stepper.settle, lambda: stepper.run(RECORD)):
+        with pytest.raises(ValueError, match=words):
+            call()
+
+
+def test_a_fix_that_was_taken_off_again_leaves_the_weight_on_once(ops: Any) -> None:
+    feet, _ = on_feet(ops)
+    stepper = Stepper(ops, feet)
+    ops.fix(1, 0, 1, 0)
+    with pytest.raises(ValueError, match="since add_feet"):
+        stepper.gravity()
+    ops.remove("sp", 1, 2)
+    stepper.gravity()
+    assert stepper.weight == pytest.approx(42e3 * gs.GRAVITY, rel=1e-6)
+
+
+def test_a_foot_that_cannot_turn_is_told(ops: Any) -> None:
+    feet, _ = on_feet(ops)
+    ops.fix(1, 0, 0, 1)
+    words = r"gravity: node 1 is fixed in direction 3: element 1 \(.*\) cannot turn where it stands on the foot"
+    with pytest.warns(gs.GroundspringWarning, match=words) as caught:
+        Stepper(ops, feet).gravity()
+    assert [one.filename for one in caught] == [__file__]
+
+
+def test_a_duration_beyond_the_record_is_told_with_both_numbers(ops: Any) -> None:
+    feet, _ = on_feet(ops)
+    stepper = Stepper(ops, feet)
+    stepper.gravity()
+    with pytest.warns(gs.GroundspringWarning, match="duration is 1 s, the record ends at 0.2 s, and the run with it"):
+        history = stepper.run(RECORD, duration=1.0)
+    assert history.t[-1] == pytest.approx(0.2)
+    for wrong in (-1.0, np.nan, "1"):
+        with pytest.raises(ValueError, match="run: duration is .*; give a finite number of seconds"):
+            stepper.run(RECORD, duration=wrong)  # type: ignore[arg-type]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert len(stepper.run(RECORD, duration=RECORD.duration).t) == len(RECORD)

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from .._native import GRAVITY, GroundspringWarning
+from ._checks import check_supports, tell_turn
 from ._feet import FIRST_TAG, Feet, take
 
 PART = 0.01
@@ -46,11 +47,13 @@ class Staging:
         weight. What comes in later and is to settle, too: `settle`. What comes in unstressed needs nothing: a `Truss`
         or `zeroLength` put in now is as long as it stands.
 
-        ValueError: the feet carry something already. GroundspringWarning: the loads are more than the nodal masses
-        weigh, or, of the model's own, less; elements have mass, whose weight is not put on.
+        ValueError: the feet carry something already; a foot was fixed, or its ground freed, after `add_feet`.
+        GroundspringWarning: the loads are more than the nodal masses weigh, or, of the model's own, less; elements have
+        mass, whose weight is not put on; a foot cannot turn.
         """
         if loads not in ("weight", "own"):
             raise ValueError(f'gravity: loads is {loads!r}; give "weight" or "own"')
+        self._check_static("gravity", steps)
         ops, masses = self.ops, self._masses()
         weighs = GRAVITY * math.fsum(masses.values())
         carried = self._carried()
@@ -59,11 +62,13 @@ class Staging:
                 f"gravity: the feet carry {carried:.4g} N already, and a second call would put the weight on twice; "
                 "settle() lets what has come in since come to rest, run() shakes the model as it stands"
             )
+        tell_turn(ops, self.groups, "gravity")
         if loads == "weight":
             series = take(self._free, lambda tag: ops.timeSeries("Linear", tag))
             ops.pattern("Plain", self._pattern(), series)
             for node, mass in masses.items():
-                ops.load(node, 0.0, -mass * GRAVITY, 0.0)
+                # a node of ndf 2 (a brick, a truss) takes two numbers
+                ops.load(node, 0.0, -mass * GRAVITY, *[0.0] * (len(ops.nodeDisp(node)) - 2))
             self._weight = True
         self._static("gravity", steps)
         self.staged = loads, steps
@@ -77,10 +82,12 @@ class Staging:
         """
         if self._known is None:
             raise ValueError("settle: gravity() comes first")
+        self._check_static("settle", steps)
         self._static("settle", steps)
         self._measure_loads()
 
-    def _static(self, name: str, steps: int) -> None:
+    def _check_static(self, name: str, steps: int) -> None:
+        """Before anything is put on: a call that is refused may be made again."""
         ops = self.ops
         if ops.getTime() != 0.0:
             raise ValueError(
@@ -89,6 +96,10 @@ class Staging:
             )
         if not (isinstance(steps, int) and steps > 0):
             raise ValueError(f"{name}: steps is {steps!r}; give a whole number above zero")
+        check_supports(ops, self.groups, name)
+
+    def _static(self, name: str, steps: int) -> None:
+        ops = self.ops
         ops.wipeAnalysis()
         self._solver("LoadControl", 1.0 / steps, kind="Static")
         if ops.analyze(steps) != 0:

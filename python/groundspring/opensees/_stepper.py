@@ -13,6 +13,7 @@ import numpy as np
 
 from .._native import GroundspringWarning, Record
 from ._account import Books
+from ._checks import check_feet, check_record, check_supports, ends_at, is_number
 from ._converged import FEET, Convergence, converged
 from ._feet import FIRST_TAG, Feet, _radius, take
 from ._history import FeetHistory, Watch
@@ -72,13 +73,11 @@ class Stepper(Staging):
         analysis: bool = True,
     ) -> None:
         self.ops = ops
-        self.groups = [feet] if isinstance(feet, Feet) else list(feet)
-        if not self.groups:
-            raise ValueError("Stepper: there are no feet; give what add_feet returns")
-        if not 1e-6 <= accuracy <= 0.1:
-            raise ValueError(f"accuracy is {accuracy!r}; give a normalised error from 1e-6 to 0.1")
+        self.groups = [feet] if isinstance(feet, Feet) else check_feet(feet, Feet)
+        if not (is_number(accuracy) and 1e-6 <= accuracy <= 0.1):
+            raise ValueError(f"Stepper: accuracy is {accuracy!r}; give a normalised error from 1e-6 to 0.1")
         for name, value in (("longest", longest), ("landing", landing), ("rise", rise), ("tolerance", tolerance)):
-            if value is not None and not (math.isfinite(value) and value > 0.0):
+            if value is not None and not (is_number(value) and value > 0.0):
                 raise ValueError(f"Stepper: {name} is {value!r}; give a finite number greater than zero")
         self.accuracy, self.longest, self.analysis, self.constraints = accuracy, longest, analysis, constraints
         self.landing = min(group.landing for group in self.groups) if landing is None else landing
@@ -134,25 +133,25 @@ class Stepper(Staging):
         vertical   ground acceleration at the record's times, positive upwards, if not that of the record
 
         Every mass is shaken, those of elements and of the absorbers too.
-        GroundspringWarning: an event was met in too long a step.
+        ValueError: a foot was fixed, or its ground freed, after `add_feet`. GroundspringWarning: an event was met in
+        too long a step; the duration is longer than the record, with which the run ends.
         """
         ops = self.ops
+        check_record(record, "run")
+        check_supports(ops, self.groups, "run")
         if not any((group.forces()[:, 1] > 0.0).any() for group in self.groups):
             raise ValueError("run: no foot presses on the ground; call stepper.gravity() first")
         self._check_added()
-        try:
-            finite = math.isfinite(scale)
-        except TypeError:
-            finite = False
-        if not finite:
+        if not is_number(scale):
             raise ValueError(f"run: scale is {scale!r}; give a finite number")
+        lasts = ends_at(record, duration, "run", 2)
         dt, start = record.dt, ops.getTime()
         both = record if vertical is None else record.with_vertical(vertical)
         shaken = both if scale == 1.0 else both.scaled(scale)
         self._ground(shaken, 1, start)
         if shaken.vertical is not None:
             self._ground(shaken.vertical, 2, start)
-        count = len(record if duration is None else record.truncated(duration))
+        count = len(record if lasts is None else record.truncated(lasts))
         if self.steps is None:
             self._begin(0.5 * dt)
         self._told, self._began, self._from, self.steps.changes = 0, self.steps.taken, start, 0
