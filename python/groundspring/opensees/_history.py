@@ -19,10 +19,19 @@ MOST_CHANGE = 0.05
 """A force that changes by this share or more with steps and springs is not the structure's, as the program has it."""
 
 
-def said_of_forces(changes: Mapping[str, float] | None) -> str:
-    """Which forces are the structure's own, by their largest changes with steps and springs."""
+def own_forces(changes: Mapping[str, float] | None, moves: str) -> tuple[str, ...]:
+    """The forces that are the structure's own: none unless they are checked, and displacements converge."""
+    return () if moves else tuple(name for name, change in (changes or {}).items() if change < MOST_CHANGE)
+
+
+def said_of_forces(changes: Mapping[str, float] | None, moves: str) -> str:
+    """Which forces are the structure's own, by their largest changes with steps and springs; none if there is a
+    displacement that moves with these."""
     if changes is None:
         return "not checked"
+    if moves:
+        each = ", ".join(f"{name} ({100.0 * change:.1f} %)" for name, change in changes.items())
+        return f"none is the structure's, as displacements do not converge ({moves}): {each}"
     own = [f"{name} ({100.0 * change:.1f} %)" for name, change in changes.items() if change < MOST_CHANGE]
     other = [f"{name} ({100.0 * change:.1f} %)" for name, change in changes.items() if not change < MOST_CHANGE]
     said = [f"the structure's: {', '.join(own)}"] if own else []
@@ -49,9 +58,12 @@ class FeetHistory:
     dissipated          energy taken by their dashpots, J
     account             energies of the whole structure, if the run kept them
     force_changes       largest change of every force that `Stepper.converged` found, as a share; None: not checked
+    moves               the displacement that `Stepper.converged` found not to converge, and by how much it changes;
+                        empty if they all do
 
     A force is the structure's own only where `Stepper.converged` has shown that it changes by less than 5 % with steps
-    and springs. Elsewhere it may be that of the springs: in a landing they make it as large as they are stiff.
+    and springs, and that displacements converge: `own_forces`. Elsewhere it may be that of the springs: in a landing
+    they make it as large as they are stiff.
     """
 
     nodes: tuple[int, ...]
@@ -68,14 +80,20 @@ class FeetHistory:
     dissipated: Array = field(default_factory=lambda: np.empty(0))
     account: Account | None = None
     force_changes: Mapping[str, float] | None = None
+    moves: str = ""
 
     def __repr__(self) -> str:
         if not len(self.t):
             return "FeetHistory(no samples)"
         return (
             f"FeetHistory(nodes {', '.join(map(str, self.nodes))}; {len(self.t)} samples to {self.t[-1]:.2f} s; "
-            f"largest uplift {self.uplift.max():.4g} m; forces: {said_of_forces(self.force_changes)})"
+            f"largest uplift {self.uplift.max():.4g} m; forces: {said_of_forces(self.force_changes, self.moves)})"
         )
+
+    @property
+    def own_forces(self) -> tuple[str, ...]:
+        """Names of the forces that `Stepper.converged` found to be the structure's own."""
+        return own_forces(self.force_changes, self.moves)
 
     @property
     def base_shear(self) -> Array:

@@ -29,8 +29,10 @@ class Staging:
     _weight: bool
     _known: set[int] | None
     """Elements that were there at the last static stage."""
-    staged: tuple[str, int] = ("weight", 10)
+    staged: tuple[str, int] | None = None
     """How `gravity` was called."""
+    settled: bool = False
+    """Whether `settle` was called since."""
     weight: float = 0.0
     """What presses down on the structure, N: all vertical loads of the last static stage."""
     prestress: float = 0.0
@@ -84,6 +86,7 @@ class Staging:
             raise ValueError("settle: gravity() comes first")
         self._check_static("settle", steps)
         self._static("settle", steps)
+        self.settled = True
         self._measure_loads()
 
     def _check_static(self, name: str, steps: int) -> None:

@@ -84,6 +84,7 @@ class Stepper(Staging):
         self.rise = min(_topples(ops, group) for group in self.groups) / 100.0 if rise is None else rise
         nodes = [node for group in self.groups for node in group.nodes]
         self.tolerance = 1e-12 * _radius(ops, nodes) if tolerance is None else tolerance
+        self.built = math.fsum(self._masses().values())  # kg, of the nodes, as the stepper was made
         self._free = itertools.count(max([FIRST_TAG, *ops.getNodeTags(), *ops.getEleTags()]) + 1)
         self.given: dict[str, Any] = {
             "landing": landing,
@@ -189,7 +190,7 @@ class Stepper(Staging):
         quantities: Mapping[str, Callable[[], float]] | None = None,
         *,
         forces: Mapping[str, Callable[[], float]] | None = None,
-        after: Callable[[], object] | None = None,
+        after: Callable[[], object] | Callable[[Stepper], object] | None = None,
         scale: float = 1.0,
         duration: float | None = None,
         vertical: Record | None = None,
@@ -198,23 +199,37 @@ class Stepper(Staging):
         """Run the record again with accuracy and longest step halved, and the springs two and four times as stiff, in
         turn; what that changes.
 
-        build       makes the model anew, without feet, from `ops.wipe()` on:
+        build       makes the model anew, without feet, from `ops.wipe()` on, and returns nothing that is looked at:
                     OpenSees cannot be taken back to where it began
-        quantities  what is compared beside the uplift, by name: functions of the live model, such as
-                    `lambda: ops.nodeDisp(5, 1)`; the largest magnitude over all steps counts
+        quantities  displacements that are compared beside the uplift, by name: functions of the live model, such as
+                    `lambda: ops.nodeDisp(5, 1)`; the largest magnitude over all steps counts. Unless given, that of the
+                    highest node with a mass, sideways
         forces      the same of forces and moments, such as `lambda: ops.eleForce(3)[2]`: one that changes by less than
-                    5 % is the structure's own, any other that of springs and steps. The feet's are looked at unasked
-        after       called after gravity: what comes into the model unstressed
+                    5 % is the structure's own, if all quantities converge, too; any other that of springs and steps.
+                    The feet's are looked at unasked
+        after       called after gravity: what comes into the model unstressed. One that takes an argument is given the
+                    stepper of the run: for its `settle`
         scale, duration, vertical   as for `run`
         progress    a line on stderr for every run, with its steps
 
-        Feet, gravity and options are those of this stepper. A last run, whose ground shakes by a millionth more, says
-        how much of a change is the motion's own sensitivity. Six runs in all; the model is left as the last one left
-        it. The history that `run` gave of the same record learns which of its forces are the structure's.
+        Quantities converge if they change by no more than the accuracy that springs_for was asked for (or that of the
+        steps, if it is larger; 5 % at most), the uplift as a share of a thousandth of where the structure topples if it
+        is less than that. Feet, gravity and options are those of this stepper. A last run, whose ground shakes by a
+        millionth more, says how much of a change is the motion's own sensitivity. Six runs in all; the model is left as
+        the last one left it. The history that `run` gave of the same record learns which of its forces are the
+        structure's.
 
             roof, base = lambda: ops.nodeDisp(5, 1), lambda: ops.eleForce(3)[2]
             print(stepper.converged(record, build, {"roof": roof}, forces={"base moment": base}))
+
+        ValueError: gravity() has not been called; build makes another model; a quantity is no number, or zero.
         """
+        for name, given in (("quantities", quantities), ("forces", forces)):
+            if not isinstance(given, Mapping | None):
+                raise TypeError(
+                    f"converged: {name} is a {type(given).__name__}; give functions by name, "
+                    '{"roof": lambda: ops.nodeDisp(5, 1)}'
+                )
         wanted, loads = dict(quantities or {}), dict(forces or {})
         if not all(map(callable, (*wanted.values(), *loads.values()))):
             raise ValueError(
@@ -230,7 +245,7 @@ class Stepper(Staging):
             ours, theirs = self.history.uplift, found.history.uplift
             # another `build` or `after` would be another history
             if ours.shape == theirs.shape and np.allclose(ours, theirs, rtol=1e-6, atol=1e-9):
-                self.history.force_changes = found.force_changes
+                self.history.force_changes, self.history.moves = found.force_changes, found.moves
             else:
                 text = (
                     "converged: its first run is not the history that run gave: largest uplift "
