@@ -207,3 +207,92 @@ def test_a_duration_beyond_the_record_is_told_with_both_numbers(ops: Any) -> Non
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert len(stepper.run(RECORD, duration=RECORD.duration).t) == len(RECORD)
+
+
+def test_feet_that_a_constraint_binds_are_not_measured_wrongly(ops: Any) -> None:
+    """OpenSees gives both the equations of the node that they are linked to."""
+    ops.model("basic", "-ndm", 2, "-ndf", 3)
+    ops.geomTransf("Corotational", 1)
+    for node, y, mass in ((10, 0.0, 2e3), (11, 5.0, 5e4)):
+        ops.node(node, 0.0, y)
+        ops.mass(node, mass, mass, 0.3 * mass)
+    ops.element("elasticBeamColumn", 1, 10, 11, 0.5, 28e9, 0.12, 1)
+    for node, x in ((1, -1.0), (2, 1.0)):
+        ops.node(node, x, 0.0)
+        ops.rigidLink("beam", 10, node)
+    for constraints in ("Plain", "Transformation"):
+        with pytest.raises(
+            ValueError, match="node 1 is bound to node 10 by a constraint .* by a stiff elasticBeamColumn"
+        ):
+            springs_for(ops, [1, 2], constraints=constraints)
+
+
+def test_constraints_that_plain_leaves_out_are_told(ops: Any) -> None:
+    nodes = soft_frame(ops)
+    ops.node(201, 0.0, 4.5)
+    ops.mass(201, 5e3, 5e3, 0.0)
+    ops.rigidLink("beam", 101, 201)
+    feet = add_feet(ops, nodes, springs_for(ops, nodes, constraints="Transformation"))
+    with pytest.raises(ValueError, match='constraints is "Plain", .* give constraints="Transformation"'):
+        Stepper(ops, feet)
+    stepper = Stepper(ops, feet, constraints="Transformation")
+    stepper.gravity()
+    assert stepper.weight == pytest.approx(47e3 * gs.GRAVITY, rel=1e-6)
+    assert stepper.run(RECORD).uplift.shape == (len(RECORD), 2)
+
+
+def test_a_structure_that_stands_on_something_else_is_told(ops: Any) -> None:
+    feet, _ = on_feet(ops)
+    for node in (101, 102):
+        ops.fix(node, 0, 1, 0)
+    words = (
+        r"feet on nodes \[1, 2\] carry .* N, node 10[12] bears .* N of the same structure: it is fixed in direction 2"
+    )
+    with pytest.warns(gs.GroundspringWarning, match=words) as caught:
+        Stepper(ops, feet).gravity()
+    assert [one.filename for one in caught] == [__file__]
+
+
+def test_feet_of_a_model_that_was_wiped_are_told(ops: Any) -> None:
+    feet, _ = on_feet(ops)
+    stepper = Stepper(ops, feet)
+    stepper.gravity()
+    ops.wipe()
+    soft_frame(ops)
+    with pytest.raises(ValueError, match=r"run: the feet on nodes \[1, 2\] are no longer in the model"):
+        stepper.run(RECORD)
+
+
+def test_a_model_in_millimetres_is_doubted(ops: Any) -> None:
+    ops.model("basic", "-ndm", 2, "-ndf", 3)
+    ops.geomTransf("Corotational", 1)
+    for node, x, y, mass in (
+        (1, 0.0, 0.0, 1.0),
+        (2, 3000.0, 0.0, 1.0),
+        (3, 0.0, 3500.0, 20.0),
+        (4, 3000.0, 3500.0, 20.0),
+    ):
+        ops.node(node, x, y)
+        ops.mass(node, mass, mass, 0.0)
+    for i, (a, b) in enumerate(((1, 3), (2, 4), (3, 4)), 1):
+        ops.element("elasticBeamColumn", i, a, b, 149e2, 210e3, 2.517e8, 1)
+    springs = springs_for(ops, [1, 2])
+    with pytest.warns(gs.GroundspringWarning, match="model reaches 4610 m from a foot; units are SI .*: check units"):
+        add_feet(ops, [1, 2], springs)
+
+
+def test_a_second_run_is_not_shaken_by_the_rest_of_the_first_record(ops: Any) -> None:
+    """And an analysis that was made between the two is not taken for the stepper's."""
+    shaken, still = gs.el_centro().scaled(0.3), gs.Record(0.01, np.zeros(51))
+    roofs = []
+    for record, duration in ((shaken.truncated(1.0), None), (shaken, 1.0)):
+        ops.wipe()
+        feet, _ = on_feet(ops)
+        stepper = Stepper(ops, feet)
+        stepper.gravity()
+        stepper.run(record, duration=duration)
+        if duration is not None:
+            ops.wipeAnalysis()
+        roofs.append([])
+        stepper.run(still, on_sample=lambda i, t: roofs[-1].append(ops.nodeDisp(101, 1)))
+    assert roofs[1] == pytest.approx(roofs[0], rel=1e-9, abs=1e-12) and np.ptp(roofs[0]) > 1e-6

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 HINGED = ("Truss", "ZeroLength", "TwoNodeLink", "FlatSlider")
 """Parts of the names of elements that do not turn with their nodes, or need not."""
 
+HARDLY_STANDS = 0.1
+"""Share of what another support bears below which the feet do not carry their structure."""
+
 
 def is_number(value: object) -> bool:
     """Whether it is a finite real number."""
@@ -65,11 +68,23 @@ def check_feet(feet: object, kind: type[Feet]) -> list[Feet]:
     return groups
 
 
-def check_record(record: object, call: str) -> None:
+def check_constraints(groups: Sequence[Feet], constraints: str) -> None:
+    """Refuse "Plain", which leaves constraints out, for springs that were measured with another handler."""
+    for group in groups:
+        if not isinstance(group.springs, FeetSprings) or constraints != "Plain":
+            continue
+        if (theirs := group.springs.measured.constraints) != "Plain":
+            raise ValueError(
+                f'Stepper: constraints is "Plain", which leaves out constraints between nodes; springs_for measured '
+                f'with "{theirs}": give constraints="{theirs}"'
+            )
+
+
+def check_record(record: object, call: str, name: str = "record") -> None:
     """Refuse what is no record."""
     if not isinstance(record, Record):
         raise TypeError(
-            f"{call}: record is a {type(record).__name__}; give a groundspring.Record, of gs.read_record(path) or "
+            f"{call}: {name} is a {type(record).__name__}; give a groundspring.Record, of gs.read_record(path) or "
             "gs.Record(dt, accel)"
         )
 
@@ -92,7 +107,13 @@ def ends_at(record: Record, duration: float | None, call: str, level: int) -> fl
 
 def check_supports(ops: Any, groups: Sequence[Feet], call: str) -> None:
     """Refuse a foot that was fixed after `add_feet`, and ground that was freed: the foot would never lift."""
-    nodes = set(ops.getFixedNodes() or [])
+    nodes, there = set(ops.getFixedNodes() or []), {*ops.getNodeTags(), *ops.getEleTags()}
+    for group in groups:
+        if not there.issuperset((*group.nodes, *group.grounds, *group.bearings)):
+            raise ValueError(
+                f"{call}: the feet on nodes {list(group.nodes)} are no longer in the model, which was wiped or built "
+                "anew since add_feet: call add_feet again, and make a new Stepper"
+            )
 
     def fixed(node: int) -> set[int]:
         return set(ops.getFixedDOFs(node)) if node in nodes else set()
@@ -134,3 +155,29 @@ def tell_turn(ops: Any, groups: Sequence[Feet], call: str) -> None:
             )
             warnings.warn(text, GroundspringWarning, stacklevel=3)
             return
+
+
+def tell_resting(ops: Any, groups: Sequence[Feet], call: str) -> None:
+    """Warn of a structure that hardly stands on its feet: fixed nodes that hang together with these bear it. Reactions
+    must have been asked for."""
+    fixed = {node for node in ops.getFixedNodes() or [] if 2 in ops.getFixedDOFs(node)}
+    fixed -= {ground for group in groups for ground in group.grounds}
+    bears = {node: load for node in fixed if (load := float(ops.nodeReaction(node, 2))) > 0.0}
+    if not bears:
+        return
+    ends = [set(ops.eleNodes(element)) for element in ops.getEleTags()]
+    for group in groups:
+        reached, front = set(group.nodes), set(group.nodes)
+        while front:
+            # not beyond what is fixed
+            front = set().union(*(of for of in ends if not of.isdisjoint(front - fixed))) - reached
+            reached |= front
+        most = max(reached & set(bears), key=lambda node: bears[node], default=None)
+        carried = float(group.forces()[:, 1].sum())
+        if most is not None and carried < HARDLY_STANDS * bears[most]:
+            text = (
+                f"{call}: the feet on nodes {list(group.nodes)} carry {carried:.4g} N, node {most} bears "
+                f"{bears[most]:.4g} N of the same structure: it is fixed in direction 2, and what is fixed does not "
+                "rock; free it unless that is meant"
+            )
+            warnings.warn(text, GroundspringWarning, stacklevel=4)

@@ -26,6 +26,9 @@ Array = npt.NDArray[np.float64]
 HOLDS = 1e7
 """A coefficient of friction at which no pressing foot ever slips, as in the decks."""
 
+LARGEST = 1000.0
+"""Distance of a node from a foot, m, beyond which the units are doubted: no structure that rocks is as high."""
+
 HEAVY = 3.0
 """Mass that springs are for over what lands, from which on it is told: absorbers then weigh more than the foot."""
 
@@ -163,6 +166,7 @@ def add_feet(
     nodes = node_tags(nodes, "add_feet")
     check_springs(springs, nodes)
     _check(ops, nodes, springs, compliance, friction)
+    _check_size(ops, nodes)
     model = _check_lands(ops, nodes, springs) if measure and compliance == 0.0 else None
     feet = Feet(ops, nodes, springs, compliance)
     if model is not None:
@@ -305,6 +309,13 @@ def _check_same(model: Model, springs: FeetSprings) -> None:
             )
 
 
+def _check_size(ops: Any, nodes: Sequence[int]) -> None:
+    size = _radius(ops, nodes)
+    if size > LARGEST:
+        text = f"add_feet: the model reaches {size:.4g} m from a foot; units are SI (m, kg, N, s), not mm: check units"
+        warnings.warn(text, GroundspringWarning, stacklevel=3)
+
+
 def _check_mass(ops: Any, mass: float) -> None:
     masses = [ops.nodeMass(node, 2) for node in ops.getNodeTags()]
     if any(nodal < 0.0 for nodal in masses):
@@ -318,7 +329,7 @@ def _check_mass(ops: Any, mass: float) -> None:
         warnings.warn(text, GroundspringWarning, stacklevel=4)
 
 
-def _radius(ops: Any, nodes: list[int]) -> float:
+def _radius(ops: Any, nodes: Sequence[int]) -> float:
     """Largest distance from a foot to a node of the model, m."""
     places = [ops.nodeCoord(node) for node in ops.getNodeTags()]
     feet = [ops.nodeCoord(node) for node in nodes]

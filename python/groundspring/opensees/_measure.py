@@ -122,11 +122,14 @@ class Model:
         feet = [dofs[node][k] for node in nodes for k in (0, 1)]
         if min(feet) < 0:
             raise NotMeasured("a foot is held by a constraint between nodes")
+        _check_bound(ops, self.nodes, dofs)
         links = (stiffness != 0.0) | (mass != 0.0)
         for node in nodes:
             own = set(_connected(links, dofs[node][:2]))
             if all(other == node or own.isdisjoint(of) for other, of in dofs.items()):
-                raise NotMeasured(f"node {node} carries none of the structure: no element joins it to another node")
+                raise NotMeasured(
+                    f"node {node} carries none of the structure: no element joins it to another node that is free"
+                )
         rows = _connected(links, feet)
         index = {old: new for new, old in enumerate(rows)}
         self.there = {node for node, of in dofs.items() if any(dof in index for dof in of)}
@@ -264,6 +267,21 @@ def _take_off(stiffness: Array, foot: list[int], absorber: list[int]) -> None:
     for dof in absorber:
         if dof >= 0:
             stiffness[dof, :] = stiffness[:, dof] = 0.0
+
+
+def _check_bound(ops: Any, feet: Sequence[int], dofs: Mapping[int, Sequence[int]]) -> None:
+    """Refuse feet that a constraint binds to a node at another place: OpenSees gives them the equations of that node,
+    and not how far from it they are."""
+    for node in feet:
+        for other in ops.getRetainedNodes() or []:
+            if node not in ops.getConstrainedNodes(other):
+                continue
+            apart = ops.nodeCoord(node) != ops.nodeCoord(other)
+            if apart or set(dofs[node][:2]).isdisjoint(dofs[other]):
+                raise NotMeasured(
+                    f"node {node} is bound to node {other} by a constraint (rigidLink, equalDOF), and what lands there "
+                    "cannot be measured; join them by a stiff elasticBeamColumn"
+                )
 
 
 def _connected(links: Any, first: list[int]) -> list[int]:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from .._native import GRAVITY, GroundspringWarning
-from ._checks import check_supports, tell_turn
+from ._checks import check_supports, tell_resting, tell_turn
 from ._feet import FIRST_TAG, Feet, take
 
 PART = 0.01
@@ -139,6 +139,7 @@ class Staging:
 
     def _check_loads(self, loads: str, weighs: float) -> None:
         self._measure_loads()
+        tell_resting(self.ops, self.groups, "gravity")
         unweighed = GRAVITY * max(group.element_mass for group in self.groups)
         if loads == "weight" and unweighed > PART * weighs:
             text = (

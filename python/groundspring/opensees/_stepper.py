@@ -13,7 +13,7 @@ import numpy as np
 
 from .._native import GroundspringWarning, Record
 from ._account import Books
-from ._checks import check_feet, check_record, check_supports, ends_at, is_number
+from ._checks import check_constraints, check_feet, check_record, check_supports, ends_at, is_number
 from ._converged import FEET, Convergence, converged
 from ._feet import FIRST_TAG, Feet, _radius, take
 from ._history import FeetHistory, Watch
@@ -79,6 +79,7 @@ class Stepper(Staging):
         for name, value in (("longest", longest), ("landing", landing), ("rise", rise), ("tolerance", tolerance)):
             if value is not None and not (is_number(value) and value > 0.0):
                 raise ValueError(f"Stepper: {name} is {value!r}; give a finite number greater than zero")
+        check_constraints(self.groups, constraints)
         self.accuracy, self.longest, self.analysis, self.constraints = accuracy, longest, analysis, constraints
         self.landing = min(group.landing for group in self.groups) if landing is None else landing
         self.rise = min(_topples(ops, group) for group in self.groups) / 100.0 if rise is None else rise
@@ -139,6 +140,8 @@ class Stepper(Staging):
         """
         ops = self.ops
         check_record(record, "run")
+        if vertical is not None:
+            check_record(vertical, "run", "vertical")
         check_supports(ops, self.groups, "run")
         if not any((group.forces()[:, 1] > 0.0).any() for group in self.groups):
             raise ValueError("run: no foot presses on the ground; call stepper.gravity() first")
@@ -149,12 +152,16 @@ class Stepper(Staging):
         dt, start = record.dt, ops.getTime()
         both = record if vertical is None else record.with_vertical(vertical)
         shaken = both if scale == 1.0 else both.scaled(scale)
+        if lasts is not None:
+            shaken = shaken.truncated(lasts)  # a later run is not to be shaken by what is left of it
         self._ground(shaken, 1, start)
         if shaken.vertical is not None:
             self._ground(shaken.vertical, 2, start)
-        count = len(record if lasts is None else record.truncated(lasts))
+        count = len(shaken)
         if self.steps is None:
             self._begin(0.5 * dt)
+        elif self.analysis:  # springs_for, or the user, may have made another one since the last run
+            self._analyse()
         self._told, self._began, self._from, self.steps.changes = 0, self.steps.taken, start, 0
         watch = self._watch = Watch(self.groups)
         books = Books(ops, self.groups, shaken, start, self._weight) if account else None
@@ -308,13 +315,16 @@ class Stepper(Staging):
 
     def _begin(self, longest: float) -> None:
         if self.analysis:
-            self.ops.wipeAnalysis()
-            self._solver("TRBDF2", kind="Transient")
+            self._analyse()
         pairs = tuple(pair for group in self.groups for pair in group.pairs)
         longest = longest if self.longest is None else self.longest
         elastic = any(isinstance(group.springs, FeetSprings) for group in self.groups)
         make = routine(Watched(self.ops, self._stepped), elastic)
         self.steps = make(pairs, landing=self.landing, longest=longest, rise=self.rise, accuracy=self.accuracy)
+
+    def _analyse(self) -> None:
+        self.ops.wipeAnalysis()
+        self._solver("TRBDF2", kind="Transient")
 
     def _stepped(self, h: float) -> None:
         if self._watch is not None:
