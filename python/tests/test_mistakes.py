@@ -277,8 +277,11 @@ def test_a_model_in_millimetres_is_doubted(ops: Any) -> None:
     for i, (a, b) in enumerate(((1, 3), (2, 4), (3, 4)), 1):
         ops.element("elasticBeamColumn", i, a, b, 149e2, 210e3, 2.517e8, 1)
     springs = springs_for(ops, [1, 2])
-    with pytest.warns(gs.GroundspringWarning, match="model reaches 4610 m from a foot; units are SI .*: check units"):
+    with pytest.warns(
+        gs.GroundspringWarning, match="model reaches 4610 m from a foot; units are SI .*: check units"
+    ) as caught:
         add_feet(ops, [1, 2], springs)
+    assert [one.filename for one in caught] == [__file__]
 
 
 def test_a_second_run_is_not_shaken_by_the_rest_of_the_first_record(ops: Any) -> None:

@@ -159,14 +159,12 @@ def add_feet(
 
     ValueError: a model that is not plane, nodes that are not there or fixed, that have feet already, or that have no
     mass under columns softer than the springs; springs that `springs_for` measured on another model; numbers that mean
-    nothing. GroundspringWarning: springs for three times
-    the mass that lands, or more. UntiedFeetWarning: three or more feet that nothing holds together, if `springs_for`
-    has not told it.
+    nothing. GroundspringWarning: springs for three times the mass that lands, or more; a model in other units than m.
+    UntiedFeetWarning: three or more feet that nothing holds together, if `springs_for` has not told it.
     """
     nodes = node_tags(nodes, "add_feet")
     check_springs(springs, nodes)
     _check(ops, nodes, springs, compliance, friction)
-    _check_size(ops, nodes)
     model = _check_lands(ops, nodes, springs) if measure and compliance == 0.0 else None
     feet = Feet(ops, nodes, springs, compliance)
     if model is not None:
@@ -255,6 +253,7 @@ def _check(ops: Any, nodes: list[int], springs: Springs | FeetSprings, complianc
             "what the structure gives must be less"
         )
     _check_mass(ops, max(unit.mass for unit in units))
+    _check_size(ops, nodes)
 
 
 def _check_lands(ops: Any, nodes: list[int], springs: Springs | FeetSprings) -> Model | None:
@@ -313,7 +312,7 @@ def _check_size(ops: Any, nodes: Sequence[int]) -> None:
     size = _radius(ops, nodes)
     if size > LARGEST:
         text = f"add_feet: the model reaches {size:.4g} m from a foot; units are SI (m, kg, N, s), not mm: check units"
-        warnings.warn(text, GroundspringWarning, stacklevel=3)
+        warnings.warn(text, GroundspringWarning, stacklevel=4)
 
 
 def _check_mass(ops: Any, mass: float) -> None:
