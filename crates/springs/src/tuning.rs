@@ -23,6 +23,8 @@ pub mod landing;
 
 pub mod stiffness_search;
 
+/// CMA-ES, which that search walks by.
+mod cma_es;
 mod search;
 
 pub mod suite;

@@ -2,17 +2,18 @@
 //! landings, without any record.
 //!
 //! Such springs must bounce, and whether a foot bounces once more or not makes the landings rugged
-//! in the parameters: a descent ends in the valley that it starts in. CMA-ES (Hansen and
-//! Ostermeier, Evolutionary Computation 9, 2001; the crate `cmaes`) crosses such ground, from the
-//! best of random points, again and again until its evaluations are spent.
+//! in the parameters: a descent ends in the valley that it starts in. CMA-ES ([`cma_es`]) crosses
+//! such ground, from the best of random points, again and again until its evaluations are spent.
+//!
+//! [`cma_es`]: super::cma_es
 
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
-use cmaes::{CMAESOptions, DVector};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
+use super::cma_es::CmaEs;
 use dynamics::effort::Effort;
 
 /// Points of a generation.
@@ -69,24 +70,34 @@ pub(super) fn search(
         let costs: Vec<f64> = scattered.par_iter().with_max_len(1).map(|z| bounded(z)).collect();
         let first = (0..SCATTERED).min_by(|&a, &b| costs[a].total_cmp(&costs[b])).unwrap_or(0);
         done += SCATTERED;
-        let walk = CMAESOptions::new(scattered[first].clone(), STEP)
-            .population_size(GENERATION)
-            .max_function_evals(evaluations.saturating_sub(done).max(GENERATION))
-            .fun_target(enough)
-            .tol_x(SMALLEST)
-            .tol_stagnation(PATIENCE)
-            .seed(random.random())
-            .build(|z: &DVector<f64>| bounded(z.as_slice()));
-        // the options are constants, and valid
-        let mut walk = walk.ok()?;
+        let mut walk = CmaEs::new(&scattered[first], STEP, GENERATION);
+        let mut end = (costs[first], scattered[first].clone());
+        let mut without_gain = 0;
         // generation by generation: the bound on work is asked for between them
-        while walk.next_parallel().is_none() && !effort.stops() {}
-        let end = walk.overall_best_individual()?.clone();
-        done += walk.function_evals();
-        let inside: Vec<f64> =
-            end.point.iter().zip(low.iter().zip(high)).map(|(z, (l, h))| z.clamp(*l, *h)).collect();
-        if best.as_ref().is_none_or(|(least, _)| end.value < *least) {
-            best = Some((end.value, inside));
+        while done < evaluations
+            && end.0 > enough
+            && without_gain < PATIENCE
+            && walk.width() > SMALLEST
+        {
+            let points: Vec<_> = (0..GENERATION).map(|_| walk.draw(&mut random)).collect();
+            let costs: Vec<f64> =
+                points.par_iter().with_max_len(1).map(|z| bounded(z.as_slice())).collect();
+            done += GENERATION;
+            let mut order: Vec<usize> = (0..GENERATION).collect();
+            order.sort_by(|&a, &b| costs[a].total_cmp(&costs[b]));
+            without_gain += 1;
+            if costs[order[0]] < end.0 {
+                end = (costs[order[0]], points[order[0]].as_slice().to_vec());
+                without_gain = 0;
+            }
+            walk.learn(&order.iter().map(|&i| points[i].clone()).collect::<Vec<_>>());
+            if effort.stops() {
+                break;
+            }
+        }
+        let inside = end.1.iter().zip(low.iter().zip(high)).map(|(z, (l, h))| z.clamp(*l, *h));
+        if best.as_ref().is_none_or(|(least, _)| end.0 < *least) {
+            best = Some((end.0, inside.collect()));
         }
     }
     best.map(|(_, z)| z)
