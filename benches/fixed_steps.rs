@@ -4,10 +4,12 @@
 //! ```sh
 //! cargo bench --bench fixed_steps                 # error over the step, and figures/fixed_steps.png
 //! cargo bench --bench fixed_steps -- search       # beside the best of 500 springs drawn at random
+//! cargo bench --bench fixed_steps -- stance       # error and lost histories over the stance
 //! ```
 //!
 //! Motions are of seed 31; the search chooses on those of seed 77. No spring of the program was
-//! chosen on either.
+//! chosen on either. The stances that a run tries (`tuning::fixed_steps::STANCES`) were chosen by
+//! what the third command prints, on motions of seeds 5 and 6.
 
 use std::path::Path;
 
@@ -22,7 +24,7 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use rocking::structure::{Body, Structure};
-use springs::tuning::fixed_steps::design;
+use springs::tuning::fixed_steps::{LONGEST, design};
 
 type BenchError = Box<dyn std::error::Error>;
 
@@ -37,6 +39,12 @@ const STEPS: [f64; 6] = [1e-2, 4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4];
 /// The step of the search (s), and how many springs it tries.
 const SEARCH_STEP: f64 = 1e-3;
 const EVALUATIONS: usize = 500;
+
+/// Stances of the third command, the seeds of its motions, how many motions, and its steps (s).
+const STANCES: [f64; 8] = [4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 12.0];
+const STANCE_SEEDS: [u64; 2] = [5, 6];
+const STANCE_MOTIONS: usize = 64;
+const STANCE_STEPS: [f64; 3] = [1e-2, 1e-3, 2.5e-4];
 
 const INTEGRATORS: [(&str, Integrator); 4] = [
     ("TRBDF2", Integrator::Trbdf2),
@@ -164,9 +172,48 @@ fn search() -> Result<(), BenchError> {
     Ok(())
 }
 
+/// Over bodies and steps: geometric mean and largest of the medians over p dt, histories lost.
+fn stance() -> Result<(), BenchError> {
+    let more = [
+        ("A-frame 10 m high, feet 3.6 m apart", Structure::a_frame(10.0, 3.6, 2e5)?.body()),
+        ("A-frame 30 m high, feet 3 m apart", Structure::a_frame(30.0, 3.0, 2e5)?.body()),
+        ("block 2.6 m high, 1.1 m wide", Structure::block(2.6, 1.1, 2e3)?.body()),
+        ("block 1 m high, 0.2 m wide", Structure::block(1.0, 0.2, 2e3)?.body()),
+    ];
+    let bodies: Vec<Body<f64>> = bodies()?.into_iter().chain(more).map(|(_, body)| body).collect();
+    println!("stance: geometric mean, largest median NRMSE over p dt; histories lost");
+    for (name, integrator) in &INTEGRATORS[..3] {
+        let mut suites = Vec::new();
+        for body in &bodies {
+            let body = FixedStepSprings::of(body, 1e-3, *integrator)?.body;
+            let of = |seed| WellConditioned::of_seed(&body, seed, STANCE_MOTIONS, 960);
+            suites.extend(STANCE_SEEDS.map(of));
+        }
+        for stance in STANCES {
+            let (mut medians, mut lost, mut count) = (Vec::new(), 0, 0);
+            for (of, step) in suites.iter().flat_map(|of| STANCE_STEPS.map(|step| (of, step))) {
+                let p_dt = of.body.p_squared().sqrt() * step;
+                let springs = FixedStepDesign { stance, ..design(&of.body, step) };
+                let found =
+                    if p_dt < LONGEST { errors(of, step, *integrator, &springs) } else { None };
+                if let Some(errors) = found {
+                    medians.push(errors.quantile(0.5) / p_dt);
+                    lost += errors.lost();
+                    count += errors.count();
+                }
+            }
+            let mean = medians.iter().map(|m| m.ln()).sum::<f64>() / medians.len() as f64;
+            let most = medians.iter().copied().fold(0.0, f64::max);
+            println!("{name}, {stance}: {:.1}, {most:.1}; {lost} of {count}", mean.exp());
+        }
+    }
+    Ok(())
+}
+
 fn main() -> Result<(), BenchError> {
-    match std::env::args().any(|argument| argument == "search") {
-        true => search(),
-        false => over_steps(),
+    match std::env::args().nth(1).as_deref() {
+        Some("search") => search(),
+        Some("stance") => stance(),
+        _ => over_steps(),
     }
 }

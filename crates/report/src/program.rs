@@ -155,9 +155,9 @@ impl ProgramReport {
             deck_of_even_steps: row.is_opensees_even(),
             csi: row.is_csi(),
             stiffer: row.stiffer_for_earthquakes.then_some(
-                "Omega_n is twice that of the closed form: on earthquake-like motions, which sway \
-                    the structure before it lifts, such springs are better by more than they lose \
-                    on pulses, and this integrator ends the motions that they ring in.",
+                "Omega_n is twice that of the closed form: earthquake-like motions sway the \
+                    structure before it lifts, and their peaks err less on such springs; this \
+                    integrator ends the motions that they ring in.",
             ),
         }
     }

@@ -102,7 +102,7 @@ pub struct ProgramRow<U> {
     /// The units.
     #[serde(flatten)]
     pub units: U,
-    /// Whether they have twice the usual Omega_n, for what they do on earthquake-like motions.
+    /// Whether they have twice the usual Omega_n, for their peaks on earthquake-like motions.
     #[serde(default)]
     pub stiffer_for_earthquakes: bool,
     /// What they err.

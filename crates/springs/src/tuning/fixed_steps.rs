@@ -6,23 +6,22 @@
 //!                        stance   80 (p/(alpha Omega_e))^2
 //!                        rebound  20 alpha^3 (v_r/v_n)^2,   v_r/v_n about 0.8 K
 //!
-//!   stance  = floor/2  ->  k_e = k1 K/(1 + K) = 12 m p/(alpha^2 dt)
-//!   rebound = floor/2  ->  K = sqrt(13 p dt/(2 20 0.8^2 alpha^3)),  at most 1/4
+//!   stance  = floor/2, or more  ->  k_e = k1 K/(1 + K) = 12 m p/(alpha^2 dt), or 9, 7, 4 of it
+//!   rebound = floor/2           ->  K = sqrt(13 p dt/(2 20 0.8^2 alpha^3)),  at most 1/4
 //!   units   mu = mu_u(K) M,  C = C_u(K) sqrt(M)  of what lands (`landing::design`)
 //!           Omega_h/Omega_v at least 4, more under stocky frames
 //! ```
 //!
-//! The floor is what springs cannot go below (`fixed_steps::expected`): a stance and a rebound
-//! beyond half of it gain nothing, and stiffer springs, or softer k2, cost convergence. What such
-//! springs err is measured by stepping the body as the program does, on the synthetic motions that
-//! a run's other springs are judged on.
-//!
-//! Where a program loses more than one history in twenty on these units, as HHT does on some, those
-//! of the recipe (`fixed_steps::recipe`) are tried, and kept if it loses fewer.
-//!
-//! Earthquake-like motions sway a frame before it lifts: there springs of twice Omega_n are better,
-//! if the integrator ends stiff modes. Both are measured where a user asks for a program, and the
-//! one is taken whose errors on both suites, multiplied, are less.
+//! The floor is what springs cannot go below (`fixed_steps::expected`). How stiff the stance is
+//! decides two things against each other: an iteration gives up the more often, and short steps of
+//! stocky bodies err the more, the stiffer it is (`cargo bench --bench fixed_steps -- stance`); and
+//! a body sways on it before it lifts, on earthquake-like motions most. Both are measured: springs
+//! are stepped as the program does, on the synthetic motions that a run's other springs are judged
+//! on. Stances are tried from the stiffest on. One will do if nearly all histories come through and
+//! their median error is at most 1.7 times the floor; the first that will do is taken. Where a user
+//! asks for a program, the one of these is taken whose peaks err least on earthquake-like motions,
+//! and a stance of 48 is tried, too, if the integrator ends stiff modes. What is told of the
+//! springs on synthetic motions is then measured on 48 that chose nothing.
 
 use rayon::prelude::*;
 
@@ -38,9 +37,8 @@ use dynamics::{
 };
 use fixed_steps::{
     ExpectedError, FixedStepBody, FixedStepDesign, FixedStepProgram, FixedStepSprings,
-    analysis::FixedStepOutcome,
     expected::{FLOOR, REBOUND},
-    measured::{ErrorsOverMotions, ReferenceHistory, StepErrors},
+    measured::{ErrorsOverMotions, ReferenceHistory},
     recipe::{FixedStepSpringsError, UnitNumbers},
 };
 use rocking::structure::Body;
@@ -51,12 +49,21 @@ const REBOUND_OVER_K: f64 = 0.8;
 const LARGEST_K: f64 = 0.25;
 /// K at least: below it an absorber comes back late.
 const LEAST_K: f64 = 0.02;
+/// k_e alpha^2 dt/(m p): the stances that are tried.
+pub const STANCES: [f64; 4] = [12.0, 9.0, 7.0, 4.0];
+/// The same for earthquake-like motions: twice the first's Omega_n.
+pub const STIFFEST: f64 = 48.0;
+/// Median error that springs may have, over the floor.
+const OVER_FLOOR: f64 = 1.7;
+/// Where a user asks for a program, so many synthetic motions more choose the springs, and others
+/// tell what they err.
+const ALSO_CHOOSE: usize = 24;
 /// p dt up to which an error is told.
 pub const LONGEST: f64 = 0.03;
-/// Stance of springs of twice Omega_n, over that of the recipe.
-const STIFFER: f64 = 4.0;
 /// Histories that a program is to get through, of all.
 pub const THROUGH: f64 = 0.95;
+/// The same with an integrator that ends stiff modes.
+const THROUGH_IF_ENDED: f64 = 0.99;
 
 /// The design for a body and a step (s).
 pub fn design(body: &Body<f64>, step: f64) -> FixedStepDesign {
@@ -68,10 +75,10 @@ pub fn design(body: &Body<f64>, step: f64) -> FixedStepDesign {
         for_landing(&corners, effective, k.clamp(LEAST_K, LARGEST_K));
     let numbers = |unit: &Design<f64>| UnitNumbers { k: unit.k(), c: unit.c(), mu: unit.mu };
     FixedStepDesign {
+        stance: STANCES[0],
         vertical: numbers(&vertical),
         horizontal: numbers(&horizontal),
         horizontal_over_vertical: horizontal.omega_n_hz / vertical.omega_n_hz,
-        ..FixedStepDesign::RECIPE
     }
 }
 
@@ -89,28 +96,40 @@ pub struct ProgramSprings {
     pub synthetic: Option<ErrorsOverMotions>,
     /// Measured on earthquake-like motions, if it was asked for.
     pub earthquakes: Option<ErrorsOverMotions>,
-    /// Whether springs of twice the recipe's Omega_n were taken, for what they do on
-    /// earthquake-like motions.
+    /// Whether stiffer springs were taken, for what they do on earthquake-like motions.
     pub stiffer: bool,
 }
 
-/// Motions, and Housner's answers of the body as the program has it.
+/// Motions that choose springs, and Housner's answers of the body as the program has it.
 struct ProgramSuites {
     synthetic: Vec<ReferenceHistory>,
     earthquakes: Vec<ReferenceHistory>,
 }
 
 impl ProgramSuites {
-    fn of(body: &Body<f64>, suites: &Suites, earthquakes: bool) -> Self {
-        let of = |on: JudgedOn| {
+    /// The synthetic motions of a run's suites. Where a user asked: more of them, and the
+    /// earthquake-like ones; and synthetic motions that choose nothing.
+    fn of(
+        body: &Body<f64>,
+        suites: &Suites,
+        asked: bool,
+        effort: &Effort,
+    ) -> (Self, Vec<ReferenceHistory>) {
+        let of = |suites: &Suites, on: JudgedOn| -> Vec<ReferenceHistory> {
             let motions: Vec<_> = suites.motions(on).collect();
             let answers = motions
                 .into_par_iter()
                 .map(|(dt, accel)| ReferenceHistory::new(body, dt, accel.to_vec()));
             answers.flatten().collect()
         };
-        let earthquakes = if earthquakes { of(JudgedOn::Earthquakes) } else { Vec::new() };
-        Self { synthetic: of(JudgedOn::Synthetic), earthquakes }
+        let mut synthetic = of(suites, JudgedOn::Synthetic);
+        if !asked {
+            return (Self { synthetic, earthquakes: Vec::new() }, Vec::new());
+        }
+        let mut more = of(&suites.more(body.restitution(), effort), JudgedOn::Synthetic);
+        let others = more.split_off(ALSO_CHOOSE.min(more.len()));
+        synthetic.append(&mut more);
+        (Self { synthetic, earthquakes: of(suites, JudgedOn::Earthquakes) }, others)
     }
 }
 
@@ -130,8 +149,9 @@ impl ProgramSprings {
         Self::measured(body, program, suites, case.program.is_some(), effort).ok()
     }
 
-    /// Springs for a body, measured on the synthetic motions of its suites; on the earthquake-like
-    /// ones, too, if a user asked for this program.
+    /// Springs for a body, measured on the synthetic motions of its suites; if a user asked for
+    /// this program, on more of them that did not choose the springs, and on the earthquake-like
+    /// ones.
     ///
     /// # Errors
     /// A step that is none; an integrator that is unstable.
@@ -143,30 +163,47 @@ impl ProgramSprings {
         effort: &Effort,
     ) -> Result<Self, FixedStepSpringsError> {
         let own = design(body, program.step);
-        let mut found = Self::closed_form(body, program, own)?;
-        let promises = body.p_squared().sqrt() * program.step <= LONGEST;
-        if !promises || effort.stopped() {
-            return Ok(found);
+        let of = |stance| Self::closed_form(body, program, FixedStepDesign { stance, ..own });
+        let first = of(STANCES[0])?;
+        if body.p_squared().sqrt() * program.step > LONGEST || effort.stopped() {
+            return Ok(first);
         }
-        let motions = ProgramSuites::of(&found.springs.body, suites, asked);
-        let lost = found.measure(&motions);
-        if found.share_lost() > 1.0 - THROUGH && !effort.stopped() {
-            let mut recipe = Self::closed_form(body, program, FixedStepDesign::RECIPE)?;
-            // one that loses all of these loses no fewer
-            let lost: Vec<&ReferenceHistory> =
-                lost.iter().map(|&i| &motions.synthetic[i]).collect();
-            if recipe.errors(&lost).iter().any(is_through) {
-                recipe.measure(&motions);
-                found = if recipe.share_lost() < found.share_lost() { recipe } else { found };
+        let (motions, others) = ProgramSuites::of(&first.springs.body, suites, asked, effort);
+        let stiffest = (asked && program.integrator.ends_stiff_modes()).then_some(STIFFEST);
+        let mut best: Option<Self> = None;
+        for stance in stiffest.into_iter().chain(STANCES) {
+            if effort.stopped() {
+                break;
+            }
+            let mut tried = Self { stiffer: stance == STIFFEST, ..of(stance)? };
+            tried.synthetic = tried.errors(&motions.synthetic);
+            if tried.will_do() {
+                tried.earthquakes = tried.errors(&motions.earthquakes);
+            }
+            let settles = tried.will_do() && !asked;
+            if best.as_ref().is_none_or(|best| tried.rank() < best.rank()) {
+                best = Some(tried);
+            }
+            if settles {
+                break;
             }
         }
-        if asked && program.integrator.ends_stiff_modes() && !effort.stopped() {
-            let design = FixedStepDesign { stance: STIFFER * own.stance, ..own };
-            let mut stiffer = Self { stiffer: true, ..Self::closed_form(body, program, design)? };
-            stiffer.measure(&motions);
-            found = if stiffer.on_both() < found.on_both() { stiffer } else { found };
+        let mut found = best.unwrap_or(first);
+        if asked && !effort.stopped() {
+            if found.earthquakes.is_none() {
+                found.earthquakes = found.errors(&motions.earthquakes);
+            }
+            found.measure_on_others(&others);
         }
         Ok(found)
+    }
+
+    /// What is told of the springs, on motions that did not choose them; nothing changes if these
+    /// are few.
+    fn measure_on_others(&mut self, others: &[ReferenceHistory]) {
+        if others.len() >= ALSO_CHOOSE {
+            self.synthetic = self.errors(others);
+        }
     }
 
     fn closed_form(
@@ -180,43 +217,45 @@ impl ProgramSprings {
         Ok(Self { program, springs, expected, synthetic: None, earthquakes: None, stiffer: false })
     }
 
-    /// Share of the synthetic motions that the program does not get through.
-    fn share_lost(&self) -> f64 {
-        self.synthetic
-            .as_ref()
-            .map_or(0.0, |errors| errors.lost() as f64 / errors.count().max(1) as f64)
+    /// Whether nearly all synthetic motions come through and err as little as the step allows.
+    fn will_do(&self) -> bool {
+        let ended = self.program.integrator.ends_stiff_modes();
+        let through = if ended { THROUGH_IF_ENDED } else { THROUGH };
+        self.synthetic.as_ref().is_none_or(|errors| {
+            share_lost(errors) <= 1.0 - through && self.over_limit(errors) <= 1.0
+        })
     }
 
-    /// Errors of the springs in the program, motion by motion.
-    fn errors(&self, motions: &[&ReferenceHistory]) -> Vec<StepErrors> {
+    /// The median over the largest that springs may have.
+    fn over_limit(&self, errors: &ErrorsOverMotions) -> f64 {
+        errors.quantile(0.5) / (OVER_FLOOR * self.expected.floor)
+    }
+
+    /// By which springs are compared, the least first: those that will do by their peaks on
+    /// earthquake-like motions; then others by how far they are from it.
+    fn rank(&self) -> (usize, f64) {
+        match (&self.synthetic, &self.earthquakes) {
+            (Some(errors), _) if !self.will_do() => {
+                (1, (share_lost(errors) / (1.0 - THROUGH)).max(self.over_limit(errors)))
+            }
+            (_, Some(errors)) => (0, errors.peak_quantile(0.5)),
+            _ => (0, 0.0),
+        }
+    }
+
+    /// Errors of the springs in the program; none of no motions.
+    fn errors(&self, motions: &[ReferenceHistory]) -> Option<ErrorsOverMotions> {
         let springs = &self.springs;
         let model = FixedStepBody::new(&springs.body, &springs.chains());
         let settings = self.program.settings(springs.chains().vertical.k1, springs.body.mass);
-        motions.par_iter().map(|motion| motion.errors(&model, settings)).collect()
-    }
-
-    /// Over both suites; which of the synthetic motions are lost.
-    fn measure(&mut self, motions: &ProgramSuites) -> Vec<usize> {
-        let all = |motions: &[ReferenceHistory]| self.errors(&motions.iter().collect::<Vec<_>>());
-        let [synthetic, earthquakes] = [&motions.synthetic, &motions.earthquakes].map(|m| all(m));
-        let lost = (0..synthetic.len()).filter(|&i| !is_through(&synthetic[i])).collect();
-        let some = |all: Vec<StepErrors>| (!all.is_empty()).then(|| ErrorsOverMotions::of(all));
-        (self.synthetic, self.earthquakes) = (some(synthetic), some(earthquakes));
-        lost
-    }
-
-    /// Median errors on both suites, multiplied.
-    fn on_both(&self) -> f64 {
-        let median = |errors: &Option<ErrorsOverMotions>| {
-            errors.as_ref().map_or(1.0, |errors| errors.quantile(0.5))
-        };
-        median(&self.synthetic) * median(&self.earthquakes)
+        let all = motions.par_iter().map(|motion| motion.errors(&model, settings));
+        let all: Vec<_> = all.collect();
+        (!all.is_empty()).then(|| ErrorsOverMotions::of(all))
     }
 }
 
-/// Whether the program gets through a history.
-fn is_through(errors: &StepErrors) -> bool {
-    errors.outcome == FixedStepOutcome::Finished
+fn share_lost(errors: &ErrorsOverMotions) -> f64 {
+    errors.lost() as f64 / errors.count().max(1) as f64
 }
 
 #[cfg(test)]
@@ -280,6 +319,12 @@ mod tests {
         assert!(
             found.synthetic.is_some_and(|errors| errors.count() > 12)
                 && found.earthquakes.is_none()
+        );
+        let found =
+            ProgramSprings::measured(&body, program, &suites, true, &Effort::unbounded()).unwrap();
+        assert!(
+            found.synthetic.is_some_and(|errors| errors.count() > 48)
+                && found.earthquakes.is_some()
         );
     }
 }

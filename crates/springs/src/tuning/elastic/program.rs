@@ -6,7 +6,7 @@
 //!   K    1/4, or 1/10              units of what lands at a corner (`landing::part`)
 //! ```
 //!
-//! The stance of the rigid body is taken (`tuning::fixed_steps`): the structure's own give is not
+//! The stance is that of the recipe (`fixed_steps::recipe`): the structure's own give is not
 //! the springs'. Which K is better depends on what lands, the step and the integrator: both are
 //! stepped as the program does, on the motions that the structure's other springs are judged on and
 //! on the record, and the one is kept that loses fewer of them, then the one that errs less.
