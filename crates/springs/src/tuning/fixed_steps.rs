@@ -323,7 +323,7 @@ mod tests {
         let found =
             ProgramSprings::measured(&body, program, &suites, true, &Effort::unbounded()).unwrap();
         assert!(
-            found.synthetic.is_some_and(|errors| errors.count() > 48)
+            found.synthetic.is_some_and(|errors| errors.count() > ALSO_CHOOSE)
                 && found.earthquakes.is_some()
         );
     }
