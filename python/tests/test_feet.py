@@ -1,5 +1,6 @@
 """add_feet and Stepper on models of a user's own: tags, checks, recorders, several structures, failures."""
 
+import math
 import re
 import warnings
 from pathlib import Path
@@ -298,9 +299,55 @@ def test_masses_of_elements_that_nothing_gives_weight_to_are_told(ops: Any) -> N
     ops.element("elasticBeamColumn", 301, 101, 102, 62.6e-4, 210e9, 1.177e-4, 1, "-mass", 500.0)
     stepper = Stepper(ops, add_feet(ops, nodes, springs_for(ops, nodes)))
     words = 'elements have 1500 kg of mass .* beside the 4.2e.04 kg of the nodes; .* gravity\\("own"\\)'
-    with pytest.warns(gs.GroundspringWarning, match=words) as caught:
+    twice = r"OpenSees shakes the mass of elasticBeamColumn elements \(-mass\) twice, and element 1 is one: put"
+    with pytest.warns(gs.GroundspringWarning) as caught:
         stepper.gravity()
-    assert [one.filename for one in caught] == [__file__]
+    assert [one.filename for one in caught] == [__file__] * 2
+    for text in (words, twice):
+        assert any(re.search(text, str(one.message)) for one in caught), text
+
+
+@pytest.mark.parametrize(("kind", "times"), [("elasticBeamColumn", 2.0), ("dispBeamColumn", 1.0)])
+def test_opensees_shakes_the_mass_of_elastic_beams_twice(ops: Any, kind: str, times: float) -> None:
+    """What the warning says: a damped cantilever under a constant acceleration a comes to rest at m a/k, by hand."""
+    height, mass, stiffness = 3.0, 2000.0, 3.0 * 30e9 * 1e-3 / 27.0
+    ops.model("basic", "-ndm", 2, "-ndf", 3)
+    for node, y in ((1, 0.0), (2, height)):
+        ops.node(node, 0.0, y)
+    ops.fix(1, 1, 1, 1)
+    ops.geomTransf("Linear", 1)
+    if kind == "elasticBeamColumn":
+        ops.element(kind, 1, 1, 2, 0.1, 30e9, 1e-3, 1, "-mass", 2.0 * mass / height)
+    else:
+        ops.section("Elastic", 1, 30e9, 0.1, 1e-3)
+        ops.beamIntegration("Lobatto", 1, 1, 5)
+        ops.element(kind, 1, 1, 2, 1, 1, "-mass", 2.0 * mass / height)
+    ops.timeSeries("Constant", 1)
+    ops.pattern("UniformExcitation", 1, 1, "-accel", 1)
+    ops.rayleigh(0.0, 1.4 / math.sqrt(stiffness / mass), 0.0, 0.0)
+    ops.constraints("Plain")
+    ops.numberer("RCM")
+    ops.system("UmfPack")
+    ops.test("NormDispIncr", 1e-12, 30)
+    ops.algorithm("Newton")
+    ops.integrator("TRBDF2")
+    ops.analysis("Transient")
+    assert ops.analyze(1000, 0.004) == 0
+    assert ops.nodeDisp(2, 1) * stiffness / -mass == pytest.approx(times, rel=1e-4)
+
+
+def test_the_account_tells_of_patterns_that_it_does_not_know(ops: Any) -> None:
+    nodes = soft_frame(ops)
+    stepper = Stepper(ops, add_feet(ops, nodes, springs_for(ops, nodes)))
+    with pytest.raises(ValueError, match=r'gravity\("own"\): .* put 0 N on the structure, and no foot presses'):
+        stepper.gravity("own")
+    ops.timeSeries("Linear", 1)
+    ops.pattern("Plain", 1, 1)
+    for node in (1, 2, 101, 102):
+        ops.load(node, 0.0, -ops.nodeMass(node, 2) * gs.GRAVITY, 0.0)
+    stepper.gravity("own")
+    with pytest.warns(gs.GroundspringWarning, match="not that of the model's own patterns"):
+        stepper.run(RECORD.truncated(0.1), account=True)
 
 
 def test_what_a_newcomer_gets_wrong_is_said_in_his_own_words(ops: Any) -> None:

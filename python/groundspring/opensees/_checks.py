@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 HINGED = ("Truss", "ZeroLength", "TwoNodeLink", "FlatSlider")
 """Parts of the names of elements that do not turn with their nodes, or need not."""
 
+LEAST_MASS = 1e-3
+"""Share of the nodal masses from which on the mass of elements is told."""
+
 HARDLY_STANDS = 0.1
 """Share of what another support bears below which the feet do not carry their structure."""
 
@@ -155,6 +158,20 @@ def tell_turn(ops: Any, groups: Sequence[Feet], call: str) -> None:
             )
             warnings.warn(text, GroundspringWarning, stacklevel=3)
             return
+
+
+def tell_shaken_twice(ops: Any, groups: Sequence[Feet], call: str) -> None:
+    """Warn of masses given to elasticBeamColumn elements: OpenSees 3.7.1 shakes these twice under UniformExcitation. A
+    cantilever under a constant acceleration a ends at 2 m a/k; with dispBeamColumn, or its mass on nodes, at m a/k."""
+    mass = max(group.element_mass for group in groups)
+    nodal = math.fsum(ops.nodeMass(node, 1) for node in ops.getNodeTags())
+    beams = [element for element in ops.getEleTags() if ops.eleType(element) == "ElasticBeam2d"]
+    if beams and mass > LEAST_MASS * nodal:
+        text = (
+            f"{call}: elements have {mass:.4g} kg of mass; OpenSees shakes the mass of elasticBeamColumn elements "
+            f"(-mass) twice, and element {beams[0]} is one: put their mass on the nodes, ops.mass(...)"
+        )
+        warnings.warn(text, GroundspringWarning, stacklevel=4)
 
 
 def tell_resting(ops: Any, groups: Sequence[Feet], call: str) -> None:

@@ -126,18 +126,19 @@ class Convergence:
     def _verdict(self) -> list[str]:
         """What is said below the table."""
         change, name, run = self._worst()
+        call = "springs_for" if run.startswith("springs") else "Stepper"
+        smaller = f"{call} a smaller {'longest' if run.startswith('longest') else 'accuracy'}"
         if not self.moves:
             said = f"they converge: at most {_percent(change)} ({name}), limit {_percent(self.limit)}"
         elif self.sensitivity > SENSITIVE * TWIN:
             said = (
                 f"they do NOT converge: {self.moves}, limit {_percent(self.limit)}; a ground that shakes by a "
                 f"millionth more changes them by {self.sensitivity / TWIN:.0f} millionths: the motion is sensitive, "
-                "and finer steps and springs may never make it converge; feet that walk need a tie"
+                f"and what steps and springs err grows likewise; give {smaller}; feet that walk converge only with a "
+                "tie"
             )
         else:
-            call = "springs_for" if run.startswith("springs") else "Stepper"
-            what = "longest" if run.startswith("longest") else "accuracy"
-            said = f"they do NOT converge: {self.moves}, limit {_percent(self.limit)}; give {call} a smaller {what}"
+            said = f"they do NOT converge: {self.moves}, limit {_percent(self.limit)}; give {smaller}"
         still = self.names[0] == UPLIFT and self.rows[0].values[0] < self.lifts
         hardly = f"; no foot lifts by {self.lifts:.2g} m, and changes of the uplift are shares of that" if still else ""
         forces = said_of_forces(self.force_changes, self.moves)

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from .._native import GRAVITY, GroundspringWarning
-from ._checks import check_supports, tell_resting, tell_turn
+from ._checks import check_supports, tell_resting, tell_shaken_twice, tell_turn
 from ._feet import FIRST_TAG, Feet, take
 
 PART = 0.01
@@ -49,9 +49,10 @@ class Staging:
         weight. What comes in later and is to settle, too: `settle`. What comes in unstressed needs nothing: a `Truss`
         or `zeroLength` put in now is as long as it stands.
 
-        ValueError: the feet carry something already; a foot was fixed, or its ground freed, after `add_feet`.
+        ValueError: the feet carry something already; a foot was fixed, or its ground freed, after `add_feet`; the
+        model's own patterns have no weight.
         GroundspringWarning: the loads are more than the nodal masses weigh, or, of the model's own, less; elements have
-        mass, whose weight is not put on; a foot cannot turn.
+        mass, whose weight is not put on, or which OpenSees shakes twice; a foot cannot turn.
         """
         if loads not in ("weight", "own"):
             raise ValueError(f'gravity: loads is {loads!r}; give "weight" or "own"')
@@ -139,7 +140,14 @@ class Staging:
 
     def _check_loads(self, loads: str, weighs: float) -> None:
         self._measure_loads()
+        if loads == "own" and self.weight <= 0.0:
+            raise ValueError(
+                f'gravity("own"): the model\'s own patterns put {self.weight:.4g} N on the structure, and no foot '
+                "presses on the ground: put a pattern with the weight on first, or call gravity() for that of nodal "
+                "masses"
+            )
         tell_resting(self.ops, self.groups, "gravity")
+        tell_shaken_twice(self.ops, self.groups, "gravity")
         unweighed = GRAVITY * max(group.element_mass for group in self.groups)
         if loads == "weight" and unweighed > PART * weighs:
             text = (

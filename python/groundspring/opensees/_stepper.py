@@ -148,6 +148,13 @@ class Stepper(Staging):
         self._check_added()
         if not is_number(scale):
             raise ValueError(f"run: scale is {scale!r}; give a finite number")
+        if account and self.staged is not None and self.staged[0] == "own":
+            text = (
+                "run: the account has the work of the weight that gravity() puts on, not that of the model's own "
+                "patterns, which is in its residual; for an account that adds up put the masses on nodes and call "
+                "gravity()"
+            )
+            warnings.warn(text, GroundspringWarning, stacklevel=2)
         lasts = ends_at(record, duration, "run", 2)
         dt, start = record.dt, ops.getTime()
         both = record if vertical is None else record.with_vertical(vertical)
