@@ -36,10 +36,12 @@ fn decks_of_even_steps_find_what_the_emulation_found() {
         "[structure]\nkind = 'aframe'\nheight_m = 20.0\nwidth_m = 4.4\nmass_kg = 2e5\n",
     )
     .unwrap();
-    for (case, integrator) in [
-        ("block.toml", "trbdf2"),
-        ("frame.toml", "hht:-0.3333333333333333"),
-        ("frame.toml", "backward-euler"),
+    // up to where Housner's history can be predicted: from 3.42 s on 0.1 % of the scale moves the
+    // block's by more than itself, and a rounding decides
+    for (case, integrator, duration) in [
+        ("block.toml", "trbdf2", "3.4"),
+        ("frame.toml", "hht:-0.3333333333333333", "12"),
+        ("frame.toml", "backward-euler", "12"),
     ] {
         run(&[
             "run",
@@ -48,7 +50,7 @@ fn decks_of_even_steps_find_what_the_emulation_found() {
             "--no-figures",
             "--no-report",
             "--duration",
-            "12",
+            duration,
             "--step",
             "0.001",
             "--integrator",
