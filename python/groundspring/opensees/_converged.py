@@ -30,7 +30,7 @@ UPLIFT = "uplift"
 HARDLY = 0.1
 """Of the rise from which on a foot's motion counts: below it the uplift is that of springs, and moves with them."""
 SENSITIVE = 30.0
-"""Change of displacements over that of the ground from which on finer steps and springs are not advised."""
+"""Change of displacements over that of the ground from which on the motion is called sensitive."""
 TWIN = 1e-6
 """By how much more the ground shakes under the twin."""
 FEET = ("vertical at a foot", "horizontal at a foot")
@@ -146,8 +146,8 @@ class Convergence:
 
     @property
     def sensitivity(self) -> float:
-        """The largest change of the quantities under a ground that shakes by a millionth more, as a share. One that is
-        not far below `largest` says that the motion is sensitive: no step and no spring makes it converge."""
+        """The largest change of the quantities under a ground that shakes by a millionth more, as a share. Over
+        a millionth, it is what the errors of steps and springs grow by: a sensitive motion needs them smaller."""
         twin = self.changes().get(TWIN_NAME, {})
         return max((abs(twin[name]) for name in self.names if name in twin), default=math.nan)
 

@@ -83,25 +83,18 @@ class FeetSprings(Sequence[Springs]):
         if not nodes:
             raise ValueError(f"springs: {index} takes none of the {len(self)} feet; feet are counted from 0")
         parts = [kept for part in self.parts if (kept := tuple(node for node in part if node in nodes))]
-        return self._with(nodes, self._units[index], self.lands[index], parts, self.give)
+        return self._with(nodes=nodes, units=self._units[index], lands=self.lands[index], parts=parts)
 
     def __iter__(self) -> Iterator[Springs]:
         return iter(self._units)
 
     def stiffer(self, factor: float) -> FeetSprings:
         """The same, `factor` times as stiff, landing alike: `Springs.stiffer` of each."""
-        units = [unit.stiffer(factor) for unit in self._units]
-        return self._with(self.nodes, units, self.lands, self.parts, self.give / factor)
+        return self._with(units=[unit.stiffer(factor) for unit in self._units], give=self.give / factor)
 
-    def _with(
-        self,
-        nodes: Sequence[int],
-        units: Sequence[Springs],
-        lands: Sequence[float],
-        parts: Sequence[tuple[int, ...]],
-        give: float,
-    ) -> FeetSprings:
-        return FeetSprings(nodes, units, lands, parts, give, self.k, self.landing_speed, self.measured)
+    def _with(self, **changed: Any) -> FeetSprings:
+        # what __init__ takes, under its names
+        return FeetSprings(**({name.lstrip("_"): value for name, value in vars(self).items()} | changed))
 
     @property
     def landings(self) -> tuple[float, ...]:
