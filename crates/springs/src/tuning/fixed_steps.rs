@@ -100,21 +100,18 @@ pub struct ProgramSprings {
     pub stiffer: bool,
 }
 
-/// Motions that choose springs, and Housner's answers of the body as the program has it.
+/// Motions, and Housner's answers of the body as the program has it.
 struct ProgramSuites {
+    /// Those that choose the springs.
     synthetic: Vec<ReferenceHistory>,
     earthquakes: Vec<ReferenceHistory>,
+    /// Synthetic motions that choose nothing.
+    others: Vec<ReferenceHistory>,
 }
 
 impl ProgramSuites {
-    /// The synthetic motions of a run's suites. Where a user asked: more of them, and the
-    /// earthquake-like ones; and synthetic motions that choose nothing.
-    fn of(
-        body: &Body<f64>,
-        suites: &Suites,
-        asked: bool,
-        effort: &Effort,
-    ) -> (Self, Vec<ReferenceHistory>) {
+    /// The synthetic motions of a run's suites; all the rest only where a user asked.
+    fn of(body: &Body<f64>, suites: &Suites, asked: bool, effort: &Effort) -> Self {
         let of = |suites: &Suites, on: JudgedOn| -> Vec<ReferenceHistory> {
             let motions: Vec<_> = suites.motions(on).collect();
             let answers = motions
@@ -124,12 +121,12 @@ impl ProgramSuites {
         };
         let mut synthetic = of(suites, JudgedOn::Synthetic);
         if !asked {
-            return (Self { synthetic, earthquakes: Vec::new() }, Vec::new());
+            return Self { synthetic, earthquakes: Vec::new(), others: Vec::new() };
         }
         let mut more = of(&suites.more(body.restitution(), effort), JudgedOn::Synthetic);
         let others = more.split_off(ALSO_CHOOSE.min(more.len()));
         synthetic.append(&mut more);
-        (Self { synthetic, earthquakes: of(suites, JudgedOn::Earthquakes) }, others)
+        Self { synthetic, earthquakes: of(suites, JudgedOn::Earthquakes), others }
     }
 }
 
@@ -168,7 +165,7 @@ impl ProgramSprings {
         if body.p_squared().sqrt() * program.step > LONGEST || effort.stopped() {
             return Ok(first);
         }
-        let (motions, others) = ProgramSuites::of(&first.springs.body, suites, asked, effort);
+        let motions = ProgramSuites::of(&first.springs.body, suites, asked, effort);
         let stiffest = (asked && program.integrator.ends_stiff_modes()).then_some(STIFFEST);
         let mut best: Option<Self> = None;
         for stance in stiffest.into_iter().chain(STANCES) {
@@ -177,14 +174,14 @@ impl ProgramSprings {
             }
             let mut tried = Self { stiffer: stance == STIFFEST, ..of(stance)? };
             tried.synthetic = tried.errors(&motions.synthetic);
-            if tried.will_do() {
+            let will_do = tried.will_do();
+            if will_do {
                 tried.earthquakes = tried.errors(&motions.earthquakes);
             }
-            let settles = tried.will_do() && !asked;
             if best.as_ref().is_none_or(|best| tried.rank() < best.rank()) {
                 best = Some(tried);
             }
-            if settles {
+            if will_do && !asked {
                 break;
             }
         }
@@ -193,17 +190,12 @@ impl ProgramSprings {
             if found.earthquakes.is_none() {
                 found.earthquakes = found.errors(&motions.earthquakes);
             }
-            found.measure_on_others(&others);
+            // few of them would tell less than those that chose
+            if motions.others.len() >= ALSO_CHOOSE {
+                found.synthetic = found.errors(&motions.others);
+            }
         }
         Ok(found)
-    }
-
-    /// What is told of the springs, on motions that did not choose them; nothing changes if these
-    /// are few.
-    fn measure_on_others(&mut self, others: &[ReferenceHistory]) {
-        if others.len() >= ALSO_CHOOSE {
-            self.synthetic = self.errors(others);
-        }
     }
 
     fn closed_form(
@@ -320,11 +312,23 @@ mod tests {
             found.synthetic.is_some_and(|errors| errors.count() > 12)
                 && found.earthquakes.is_none()
         );
-        let found =
-            ProgramSprings::measured(&body, program, &suites, true, &Effort::unbounded()).unwrap();
-        assert!(
-            found.synthetic.is_some_and(|errors| errors.count() > ALSO_CHOOSE)
-                && found.earthquakes.is_some()
-        );
+    }
+
+    /// Where a user asks, what springs err is told on motions none of which chose them.
+    #[test]
+    fn springs_are_told_on_motions_that_did_not_choose_them() {
+        let body = Structure::block(0.3, 0.1, 10.0).unwrap().body::<f64>();
+        let effort = Effort::unbounded();
+        let suites = Suites::of_seed(7, &body, body.restitution(), None);
+        let program = FixedStepProgram::of(ProgramName::OpenSees, 1e-3);
+        let found = ProgramSprings::measured(&body, program, &suites, true, &effort).unwrap();
+        let motions = ProgramSuites::of(&found.springs.body, &suites, true, &effort);
+        assert!(motions.others.len() > ALSO_CHOOSE);
+        for other in &motions.others {
+            assert!(motions.synthetic.iter().all(|chose| chose.accel != other.accel));
+        }
+        assert_eq!(found.synthetic, found.errors(&motions.others));
+        assert_ne!(found.synthetic, found.errors(&motions.synthetic));
+        assert_eq!(found.earthquakes, found.errors(&motions.earthquakes));
     }
 }
