@@ -1,156 +1,36 @@
-//! A white sheet: what is drawn on it is kept as plotters' elements, and becomes an SVG when its
-//! height is known.
+//! A white sheet: what is drawn on it is kept as shapes, and becomes an SVG when its height is
+//! known.
 
-use plotters::drawing::IntoDrawingArea as _;
-use plotters::element::{Circle, PathElement, Polygon, Text};
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{
-    Color, FontDesc, FontFamily, FontStyle, FontTransform, RGBColor, ShapeStyle, TextStyle,
-};
-use plotters_svg::SVGBackend;
+use plotters::style::Color;
+use plotters::style::text_anchor::HPos;
 
 use super::FigureError;
-use super::font::{self, CAPITAL};
-use super::lettering::LetteredLine;
+use super::font::CAPITAL;
+use super::lettering::Lettering;
 use super::plot::Plot;
+use super::shape::{PixelPoint, Shape, TextLine};
 use super::sheet::Sheet;
-use super::style::{Pen, TEXT, WHITE, WIDTH};
-
-/// A point (pixel).
-pub(crate) type PixelPoint = (f64, f64);
-
-/// Units of plotters' surface in one pixel: its backends take whole numbers, which would make a
-/// flat curve jump.
-const FINE: f64 = 16.0;
-/// plotters' SVG divides the sizes of fonts by this.
-const EM: f64 = 1.24;
-/// and sets the top of a text so far above its baseline, in em.
-const ASCENT: f64 = 0.76;
-
-type Fine = (i32, i32);
-
-/// One thing drawn.
-enum SvgElement {
-    Line(PathElement<Fine>),
-    Fill(Polygon<Fine>),
-    Disc(Circle<Fine, u32>),
-    Text(Text<'static, Fine, String>),
-}
-
-/// How a text looks and where it stands against its point.
-#[derive(Clone, Copy)]
-pub(crate) struct Lettering {
-    pub size: f64,
-    pub bold: bool,
-    pub upwards: bool,
-    pub colour: RGBColor,
-    pub across: HPos,
-    /// Bottom is the baseline, top the head of the capitals, centre the middle between them.
-    pub along: VPos,
-}
-
-impl Lettering {
-    /// Plain text, its left end and the middle of its height at the point.
-    pub(crate) fn new(size: f64) -> Self {
-        Self {
-            size,
-            bold: false,
-            upwards: false,
-            colour: TEXT,
-            across: HPos::Left,
-            along: VPos::Center,
-        }
-    }
-
-    pub(crate) fn bold(self) -> Self {
-        Self { bold: true, ..self }
-    }
-
-    pub(crate) fn upwards(self) -> Self {
-        Self { upwards: true, ..self }
-    }
-
-    pub(crate) fn colour(self, colour: RGBColor) -> Self {
-        Self { colour, ..self }
-    }
-
-    pub(crate) fn at(self, across: HPos, along: VPos) -> Self {
-        Self { across, along, ..self }
-    }
-
-    /// Length of a text so set (pixel).
-    pub(crate) fn length(self, text: &str) -> f64 {
-        font::length(text, self.size, self.bold)
-    }
-
-    /// A text so set at a point.
-    fn line(self, (x, y): PixelPoint, text: &str) -> LetteredLine {
-        let back = match self.across {
-            HPos::Left => 0.0,
-            HPos::Center => 0.5 * self.length(text),
-            HPos::Right => self.length(text),
-        };
-        let start =
-            if self.upwards { (x + self.drop(), y + back) } else { (x - back, y + self.drop()) };
-        let RGBColor(red, green, blue) = self.colour;
-        let (text, colour) = (text.to_owned(), [red, green, blue]);
-        LetteredLine {
-            text,
-            start,
-            size: self.size,
-            bold: self.bold,
-            upwards: self.upwards,
-            colour,
-        }
-    }
-
-    /// From the point to the baseline (pixel), across the direction of reading.
-    fn drop(self) -> f64 {
-        self.size
-            * match self.along {
-                VPos::Bottom => 0.0,
-                VPos::Center => CAPITAL / 2.0,
-                VPos::Top => CAPITAL,
-            }
-    }
-}
+use super::style::{Pen, WHITE, WIDTH};
+use super::svg;
 
 /// The sheet; coordinates are pixels from the top left corner, and may be fractions.
 #[derive(Default)]
 pub(crate) struct Canvas {
-    elements: Vec<SvgElement>,
-    lines: Vec<LetteredLine>,
+    shapes: Vec<Shape>,
     plots: Vec<Plot>,
-}
-
-fn fine((x, y): PixelPoint) -> Fine {
-    // Casts saturate: a point far outside stays outside.
-    ((x * FINE).round() as i32, (y * FINE).round() as i32)
-}
-
-fn all_fine(points: &[PixelPoint]) -> Vec<Fine> {
-    points.iter().copied().map(fine).collect()
 }
 
 impl Canvas {
     /// A polyline, full or dashed.
     pub(crate) fn line(&mut self, points: &[PixelPoint], pen: Pen) {
-        let style = ShapeStyle {
-            color: pen.colour,
-            filled: false,
-            stroke_width: (pen.width * FINE).round().max(1.0) as u32,
-        };
         let pieces = pen.dash.map_or_else(|| vec![points.to_vec()], |dash| dashes(points, dash));
-        for piece in pieces {
-            let mut points = all_fine(&piece);
-            points.dedup();
-            self.elements.push(SvgElement::Line(PathElement::new(points, style)));
-        }
+        let shape = |points| Shape::Line { points, colour: pen.colour, width: pen.width };
+        self.shapes.extend(pieces.into_iter().map(shape));
     }
 
     /// A filled polygon.
     pub(crate) fn fill<C: Color>(&mut self, points: &[PixelPoint], colour: C) {
-        self.elements.push(SvgElement::Fill(Polygon::new(all_fine(points), colour.filled())));
+        self.shapes.push(Shape::Fill { points: points.to_vec(), colour: colour.to_rgba() });
     }
 
     /// A filled rectangle from its left top to its right bottom corner.
@@ -160,28 +40,15 @@ impl Canvas {
 
     /// A filled circle.
     pub(crate) fn disc<C: Color>(&mut self, centre: PixelPoint, radius: f64, colour: C) {
-        self.elements.push(SvgElement::Disc(Circle::new(
-            fine(centre),
-            (radius * FINE).round() as u32,
-            colour.filled(),
-        )));
+        self.shapes.push(Shape::Disc { centre, radius, colour: colour.to_rgba() });
     }
 
     /// A text at a point.
-    pub(crate) fn text(&mut self, (x, y): PixelPoint, text: &str, how: Lettering) {
-        let face = if how.bold { FontStyle::Bold } else { FontStyle::Normal };
-        let turn = if how.upwards { FontTransform::Rotate270 } else { FontTransform::None };
-        let font = FontDesc::new(FontFamily::Name(font::FAMILY), how.size * EM * FINE, face)
-            .transform(turn);
-        let (color, pos) = (how.colour.to_backend_color(), Pos::new(how.across, VPos::Top));
-        let style = TextStyle { font, color, pos };
-        let drop = how.drop() - ASCENT * how.size;
-        let at = if how.upwards { (x + drop, y) } else { (x, y + drop) };
+    pub(crate) fn text(&mut self, at: PixelPoint, text: &str, how: Lettering) {
         // a name may hold what XML may not
         let text: String =
             text.chars().map(|c| if c.is_control() || c >= '\u{fffe}' { ' ' } else { c }).collect();
-        self.lines.push(how.line((x, y), &text));
-        self.elements.push(SvgElement::Text(Text::new(text, fine(at), style)));
+        self.shapes.push(Shape::Text(TextLine { text, at, how }));
     }
 
     /// A text on a white ground, so that it can be read across lines.
@@ -209,46 +76,11 @@ impl Canvas {
     /// [`FigureError::Draw`] for what plotters refuses.
     pub(crate) fn finish(self, height: f64) -> Result<Sheet, FigureError> {
         let (width, height) = (WIDTH as u32, height.round() as u32);
-        let mut svg = String::new();
-        write(&mut svg, (width, height), &self.elements)
+        let Self { shapes, plots } = self;
+        let svg = svg::document((width, height), &shapes)
             .map_err(|reason| FigureError::Draw { reason })?;
-        // plotters' head says the size of its surface, and nothing of joins: an impact would be a
-        // spike
-        let body = svg.split_once('>').map_or("", |(_, body)| body);
-        let head = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {} {}\" \
-             stroke-linejoin=\"round\" stroke-linecap=\"round\">",
-            width * FINE as u32,
-            height * FINE as u32
-        );
-        Ok(Sheet { svg: head + body, width, height, lines: self.lines, plots: self.plots })
+        Ok(Sheet { svg, width, height, shapes, plots })
     }
-}
-
-/// Everything, on white, as plotters writes it.
-fn write(
-    svg: &mut String,
-    (width, height): (u32, u32),
-    elements: &[SvgElement],
-) -> Result<(), String> {
-    let size = (width * FINE as u32, height * FINE as u32);
-    let area = SVGBackend::with_string(svg, size).into_drawing_area();
-    let ground =
-        all_fine(&[(0.0, 0.0), (f64::from(width), 0.0), (f64::from(width), f64::from(height))]);
-    let ground =
-        Polygon::new([ground, vec![fine((0.0, f64::from(height)))]].concat(), WHITE.filled());
-    area.draw(&ground).map_err(|e| e.to_string())?;
-    for element in elements {
-        match element {
-            SvgElement::Line(line) => area.draw(line),
-            SvgElement::Fill(polygon) => area.draw(polygon),
-            SvgElement::Disc(circle) => area.draw(circle),
-            SvgElement::Text(text) => area.draw(text),
-        }
-        .map_err(|e| e.to_string())?;
-    }
-    area.present().map_err(|e| e.to_string())
 }
 
 /// The drawn pieces of a polyline.

@@ -4,8 +4,9 @@
 use plotters::style::RGBColor;
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::canvas::{Canvas, Lettering};
+use super::canvas::Canvas;
 use super::legend::{self, LegendEntry};
+use super::lettering::Lettering;
 use super::mark::{Mark, MarkShape};
 use super::number::{prefix, short};
 use super::panel::{Panel, PanelFrame, ROW};

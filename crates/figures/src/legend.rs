@@ -3,7 +3,8 @@
 use plotters::style::RGBAColor;
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::canvas::{Canvas, Lettering};
+use super::canvas::Canvas;
+use super::lettering::Lettering;
 use super::mark::Mark;
 use super::style::{LABEL, NUMBER, Pen, TITLE};
 

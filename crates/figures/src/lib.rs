@@ -1,11 +1,11 @@
 //! Pictures of the results: plain numbers in, an SVG and a PNG out, no physics.
 //!
 //! Each figure is a module with one input struct of slices and labels and one function
-//! `draw(&data)`, which gives a [`Sheet`]: an SVG, drawn through plotters, which resvg turns into a
-//! PNG with an embedded font. A picture is 1600 pixels wide and readable at half that size. It is
-//! written whole or not at all, and the same numbers give the same bytes. Figures share nothing, so
-//! a program may draw them in parallel. The first line of a title is its head, further ones are
-//! remarks.
+//! `draw(&data)`, which gives a [`Sheet`]: an SVG, which plotters writes, and a PNG of the same
+//! shapes, which tiny-skia draws, with an embedded font. A picture is 1600 pixels wide and readable
+//! at half that size. It is written whole or not at all, and the same numbers give the same bytes.
+//! Figures share nothing, so a program may draw them in parallel. The first line of a title is its
+//! head, further ones are remarks.
 //!
 //! | module | shows |
 //! |---|---|
@@ -38,10 +38,13 @@ mod lettering;
 mod mark;
 mod number;
 mod panel;
+mod pixels;
 mod plot;
 mod scale;
+mod shape;
 mod sheet;
 mod style;
+mod svg;
 
 pub mod arr;
 pub mod candidates;

@@ -2,7 +2,8 @@
 
 use plotters::style::RGBColor;
 
-use super::canvas::{Canvas, PixelPoint};
+use super::canvas::Canvas;
+use super::shape::PixelPoint;
 use super::style::WHITE;
 
 /// A mark's shape.

@@ -2,9 +2,11 @@
 
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::canvas::{Canvas, Lettering, PixelPoint};
+use super::canvas::Canvas;
+use super::lettering::Lettering;
 use super::plot::{EventMark, Plot};
 use super::scale::Scale;
+use super::shape::PixelPoint;
 use super::style::{AXIS, GREY, GRID, LABEL, NUMBER, Pen};
 
 /// Height of a row of words about an event, and size of a remark (pixel).

@@ -70,7 +70,7 @@ fn panel(canvas: &mut Canvas, data: &PrecisionFigure<'_>, y: f64) {
     let top = y + legend::title(canvas, data.title, (left, WIDTH as f64 - 40.0), y);
     // The legend's column takes what its longest text needs, but leaves the panel more than half of
     // the sheet.
-    let text = super::canvas::Lettering::new(LABEL);
+    let text = super::lettering::Lettering::new(LABEL);
     let longest = data.series.iter().map(|series| text.length(series.label)).fold(0.0, f64::max);
     let right = (WIDTH as f64 - 40.0 - longest - 76.0 - 36.0).max(850.0);
     legend::column(canvas, &entries, (right + 36.0, top + 24.0));

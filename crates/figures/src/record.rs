@@ -1,7 +1,8 @@
 //! A ground motion against time: acceleration and velocity, and what lifts a structure.
 
-use super::canvas::{Canvas, Lettering};
+use super::canvas::Canvas;
 use super::legend::{self, LegendEntry};
+use super::lettering::Lettering;
 use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
 use super::style::{self, BLUE, GREY, NUMBER, Pen, VERMILLION, WIDTH};

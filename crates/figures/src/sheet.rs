@@ -1,15 +1,13 @@
-//! A finished picture: its SVG, the PNG that resvg makes of it, and the files of both.
+//! A finished picture: its SVG, its PNG, and the files of both.
 
 use std::path::Path;
 
-use resvg::{
-    tiny_skia::{Color, Pixmap, Transform},
-    usvg::{Options, Tree},
-};
+use tiny_skia::Pixmap;
 
 use super::FigureError;
-use super::lettering::LetteredLine;
+use super::pixels;
 use super::plot::Plot;
+use super::shape::Shape;
 use files::whole_file;
 
 /// A picture, and the numbers of its panels over time.
@@ -21,8 +19,8 @@ pub struct Sheet {
     pub width: u32,
     /// Height of the picture (pixels).
     pub height: u32,
-    /// Its text, for the PNG.
-    pub(crate) lines: Vec<LetteredLine>,
+    /// What is drawn, for the PNG.
+    pub(crate) shapes: Vec<Shape>,
     /// Panels over time, for a page that zooms and tells values.
     pub plots: Vec<Plot>,
 }
@@ -31,17 +29,11 @@ impl Sheet {
     /// The picture in pixels, as a PNG file; text in the embedded font.
     ///
     /// # Errors
-    /// [`FigureError::Draw`] for what resvg refuses.
+    /// [`FigureError::Draw`] for a size that cannot be, and for what the encoder refuses.
     pub(crate) fn png(&self) -> Result<Vec<u8>, FigureError> {
         let draw = |reason: String| FigureError::Draw { reason };
-        // its text is left out without fonts
-        let tree =
-            Tree::from_str(&self.svg, &Options::default()).map_err(|e| draw(e.to_string()))?;
-        let mut pixels =
-            Pixmap::new(self.width, self.height).ok_or_else(|| draw("no size".into()))?;
-        pixels.fill(Color::WHITE);
-        resvg::render(&tree, Transform::identity(), &mut pixels.as_mut());
-        self.lines.iter().for_each(|line| line.draw(&mut pixels));
+        let pixels = pixels::drawn((self.width, self.height), &self.shapes)
+            .ok_or_else(|| draw("no size".into()))?;
         self.encode(&pixels).map_err(|e| draw(e.to_string()))
     }
 

@@ -3,8 +3,9 @@
 
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::canvas::{Canvas, Lettering};
+use super::canvas::Canvas;
 use super::legend::{self, LegendEntry};
+use super::lettering::Lettering;
 use super::mark::{Mark, MarkShape};
 use super::number::short;
 use super::panel::{Panel, PanelFrame};
