@@ -60,6 +60,7 @@ class FeetHistory:
     force_changes       largest change of every force that `Stepper.converged` found, as a share; None: not checked
     moves               the displacement that `Stepper.converged` found not to converge, and by how much it changes;
                         empty if they all do
+    overturned          when a structure has leant by 45 degrees, s: what follows means nothing; None: all stand
 
     A force is the structure's own only where `Stepper.converged` has shown that it changes by less than 5 % with steps
     and springs, and that displacements converge: `own_forces`. Elsewhere it may be that of the springs: in a landing
@@ -81,14 +82,18 @@ class FeetHistory:
     account: Account | None = None
     force_changes: Mapping[str, float] | None = None
     moves: str = ""
+    overturned: float | None = None
 
     def __repr__(self) -> str:
         if not len(self.t):
             return "FeetHistory(no samples)"
-        return (
-            f"FeetHistory(nodes {', '.join(map(str, self.nodes))}; {len(self.t)} samples to {self.t[-1]:.2f} s; "
-            f"largest uplift {self.uplift.max():.4g} m; forces: {said_of_forces(self.force_changes, self.moves)})"
-        )
+        went = f"{len(self.t)} samples to {self.t[-1]:.2f} s"
+        if self.overturned is not None:
+            went += f"; OVERTURNED at {self.overturned:.2f} s"
+        else:
+            went += f"; largest uplift {self.uplift.max():.4g} m"
+        forces = said_of_forces(self.force_changes, self.moves)
+        return f"FeetHistory(nodes {', '.join(map(str, self.nodes))}; {went}; forces: {forces})"
 
     @property
     def own_forces(self) -> tuple[str, ...]:

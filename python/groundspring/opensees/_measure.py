@@ -56,7 +56,8 @@ def check_plane(ops: Any, nodes: Sequence[int], call: str) -> None:
             raise ValueError(
                 f"{call}: node {node} has ndm {ndm}, ndf {ndf}; a foot needs a rotation, as in a plane frame (ndm 2, "
                 'ndf 3): make its nodes after ops.model("basic", "-ndm", 2, "-ndf", 3), and fix the rotation of those '
-                "where only trusses meet"
+                "where only trusses meet; under plane elements, lay a sole of beams on nodes of their own (its page: "
+                "docs/rocking-wall.md)"
             )
 
 

@@ -295,23 +295,25 @@ class Stepper(Staging):
         warnings.warn(text, GroundspringWarning, stacklevel=2)
 
     def _check_standing(self) -> None:
-        """Warn where a structure fell over."""
-        if self.history.uplift.ndim != 2:
+        """Note and warn where a structure fell over."""
+        history, column = self.history, 0
+        if history.uplift.ndim != 2:
             return
-        column = 0
         for group in self.groups:
             places = [self.ops.nodeCoord(node)[0] for node in group.nodes]
             width = max(places) - min(places)
-            risen = float(self.history.uplift[:, column : column + len(places)].max(initial=0.0))
+            risen = history.uplift[:, column : column + len(places)].max(axis=1, initial=0.0)
             column += len(places)
             # from 45 degrees on nothing brings it back
-            if width > 0.0 and risen > 0.7 * width:
-                warnings.warn(
-                    f"run: a foot rose by {risen:.3g} m, the feet are {width:.3g} m apart: the structure overturned, "
-                    "what follows means nothing",
-                    GroundspringWarning,
-                    stacklevel=3,
+            fallen = np.flatnonzero(risen > 0.7 * width)
+            if width > 0.0 and fallen.size:
+                time = float(history.t[fallen[0]])
+                history.overturned = min(time, math.inf if history.overturned is None else history.overturned)
+                text = (
+                    f"run: a foot rose by {risen.max():.3g} m, the feet are {width:.3g} m apart: the structure has "
+                    f"overturned by {time:.2f} s, what follows means nothing"
                 )
+                warnings.warn(text, GroundspringWarning, stacklevel=3)
 
     def __repr__(self) -> str:
         return f"Stepper({self.report()})"
