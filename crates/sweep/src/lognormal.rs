@@ -20,7 +20,7 @@
 //! for J records: K.-Y. Liang and S. L. Zeger (1986), "Longitudinal data analysis using generalized
 //! linear models", Biometrika 73(1).
 
-use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
+use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
 /// Outcomes at one intensity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,7 +73,7 @@ pub enum LognormalFit {
 
 /// Cumulative standard normal distribution.
 pub fn phi(z: f64) -> f64 {
-    0.5 * erfc(-z * FRAC_1_SQRT_2)
+    0.5 * libm::erfc(-z * FRAC_1_SQRT_2)
 }
 
 /// Its density.
@@ -89,28 +89,6 @@ pub(crate) fn quantile(share: f64) -> f64 {
         if phi(middle) < share { low = middle } else { high = middle }
     }
     0.5 * (low + high)
-}
-
-/// Complementary error function: the series of Abramowitz & Stegun 7.1.6 below 2.5, their continued
-/// fraction 7.1.14 above.
-fn erfc(x: f64) -> f64 {
-    if x < 0.0 {
-        return 2.0 - erfc(-x);
-    }
-    if x < 2.5 {
-        let (mut term, mut sum) = (x, x);
-        for n in 1..200 {
-            term *= 2.0 * x * x / (2.0 * f64::from(n) + 1.0);
-            sum += term;
-            if term < 1e-17 * sum {
-                break;
-            }
-        }
-        return 1.0 - 2.0 / PI.sqrt() * (-x * x).exp() * sum;
-    }
-    // from the tail: x + (1/2)/(x + 1/(x + (3/2)/(x + ...)))
-    let fraction = (1..=120).rev().fold(x, |below, n| x + 0.5 * f64::from(n) / below);
-    (-x * x).exp() / (fraction * PI.sqrt())
 }
 
 /// d ln P/dz of an outcome: of one that exceeds phi/Phi, of one that does not -phi/(1 - Phi).
