@@ -158,7 +158,7 @@ fn candidates(rounds: usize) -> Skip {
         let mut best = (f64::INFINITY, 0);
         for (i, springs) in springs.iter().enumerate() {
             let limit = if abandon { best.0 } else { f64::INFINITY };
-            let judged = benchmark.judge(springs, limit, Control::search());
+            let judged = benchmark.judge_with(springs, limit, Control::search());
             if !judged.abandoned && judged.error < best.0 {
                 best = (judged.error, i);
             }

@@ -13,6 +13,8 @@
 use std::ops::ControlFlow;
 
 mod refinement;
+#[cfg(test)]
+mod tests;
 
 use rayon::prelude::*;
 
@@ -32,6 +34,14 @@ const BATCH: usize = 16;
 const FIRST_BATCH: usize = 2;
 /// Candidates of another stiffness that `follow` starts from.
 const FOLLOWED: usize = 4;
+
+/// Errors below this are measured again with finer steps.
+const CERTAIN: f64 = 2e-3;
+
+/// How candidates are followed first: such steps err by up to 1e-4, a twentieth of [`CERTAIN`].
+fn coarse() -> Control {
+    Control { long_steps: true, tolerance: 1e-5, ..Control::search() }
+}
 
 /// What the histories are compared with.
 #[derive(Clone, Copy, Debug)]
@@ -98,8 +108,23 @@ impl Benchmark<'_> {
     }
 
     /// Springs with their error, abandoned as soon as it exceeds `limit`; infinite errors of a
-    /// history that is not followed to the end.
-    pub fn judge(&self, springs: &Springs<Design<f64>>, limit: f64, control: Control) -> Candidate {
+    /// history that is not followed to the end. Small errors are measured with finer steps.
+    pub fn judge(&self, springs: &Springs<Design<f64>>, limit: f64) -> Candidate {
+        let found = self.judge_with(springs, limit, coarse());
+        if found.error < CERTAIN {
+            self.judge_with(springs, limit, Control::search())
+        } else {
+            found
+        }
+    }
+
+    /// The same with steps of one control.
+    pub fn judge_with(
+        &self,
+        springs: &Springs<Design<f64>>,
+        limit: f64,
+        control: Control,
+    ) -> Candidate {
         let square = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().max(f64::MIN_POSITIVE);
         let (su, sv) = (square(&self.housner.u), square(&self.housner.v));
         let case = self.case(springs, control);
@@ -305,7 +330,7 @@ fn sample(
         let found: Vec<Candidate> = batch
             .par_iter()
             .with_max_len(1)
-            .map(|(pair, x)| benchmark.judge(&pair.springs(*x), best, Control::search()))
+            .map(|(pair, x)| benchmark.judge(&pair.springs(*x), best))
             .collect();
         candidates.extend(found);
         best = candidates

@@ -70,6 +70,9 @@ impl Refinement {
         let chosen = (0..candidates.len())
             .filter(|&i| !candidates[i].abandoned)
             .min_by(|&a, &b| candidates[a].error.total_cmp(&candidates[b].error).then(a.cmp(&b)))?;
+        // what is told of the best is measured with fine steps
+        let springs = candidates[chosen].springs;
+        candidates[chosen] = benchmark.judge_with(&springs, f64::INFINITY, Control::search());
         Some(OmegaSearch { best: candidates[chosen], chosen, candidates })
     }
 
@@ -100,9 +103,8 @@ impl Refinement {
                     return Ok(f64::MAX);
                 }
                 let known = self.judged.iter().find(|judged| judged.springs == springs);
-                let judged = known.copied().unwrap_or_else(|| {
-                    self.benchmark.judge(&springs, self.limit, Control::search())
-                });
+                let judged =
+                    known.copied().unwrap_or_else(|| self.benchmark.judge(&springs, self.limit));
                 if let Ok(mut seen) = self.seen.lock() {
                     seen.push(judged);
                 }
@@ -113,7 +115,7 @@ impl Refinement {
         let corners = [x, [step(x[0], 0.06), x[1]], [x[0], step(x[1], 0.06)]];
         // an error well above the start's cannot help, but its size still steers the simplex
         let limit = 2.0 * sample.error;
-        let judge = |x: [f64; 2]| benchmark.judge(&pair.springs(x), limit, Control::search());
+        let judge = |x: [f64; 2]| benchmark.judge(&pair.springs(x), limit);
         let (second, third) = rayon::join(|| judge(corners[1]), || judge(corners[2]));
         let judged = [sample, second, third];
         let simplex = corners.map(|x| x.to_vec()).to_vec();
