@@ -64,6 +64,50 @@ def test_the_same_of_frames_on_soft_columns(name: str, frame: str, ops: Any) -> 
     assert uplifts[1] == pytest.approx(uplifts[0], rel=0.02) and uplifts[0] > 5e-3
 
 
+def wall_of_quads(ops: Any, footing: float = 2e3) -> list[int]:
+    """A wall of plane elements on a sole of beams, 6 m by 2 m by 0.3 m: its toes."""
+    height, width, thick, across, up = 6.0, 2.0, 0.3, 4, 8
+    dx, dy = width / across, height / up
+    ops.model("basic", "-ndm", 2, "-ndf", 2)
+    for j in range(up + 1):
+        for i in range(across + 1):
+            ops.node(1 + i + j * (across + 1), i * dx, j * dy)
+            cells = (0.5 if i in (0, across) else 1.0) * (0.5 if j in (0, up) else 1.0)
+            mass = 2400.0 * thick * dx * dy * cells
+            ops.mass(1 + i + j * (across + 1), mass, mass)
+    ops.nDMaterial("ElasticIsotropic", 1, 30e9, 0.2)
+    for j in range(up):
+        for i in range(across):
+            a, b = 1 + i + j * (across + 1), 1 + i + (j + 1) * (across + 1)
+            ops.element("quad", 1 + i + j * across, a, a + 1, b + 1, b, thick, "PlaneStress", 1)
+    ops.model("basic", "-ndm", 2, "-ndf", 3)
+    ops.geomTransf("Linear", 1)
+    for i in range(across + 1):
+        ops.node(1001 + i, i * dx, 0.0)
+        ops.mass(1001 + i, footing / (across + 1), footing / (across + 1), 0.0)
+        ops.equalDOF(1001 + i, 1 + i, 1, 2)
+        if i > 0:
+            section = thick * 0.5, 30e9, thick * 0.5**3 / 12.0
+            ops.element("elasticBeamColumn", 1000 + i, 1000 + i, 1001 + i, *section, 1)
+    ops.rayleigh(0.0, 0.0, 1e-4, 0.0)
+    return [1001, 1001 + across]
+
+
+def test_a_wall_of_plane_elements_stands_on_a_sole_of_beams(ops: Any) -> None:
+    uplifts = []
+    for factor in (1.0, 8.0):
+        ops.wipe()
+        nodes = wall_of_quads(ops)
+        feet = add_feet(ops, nodes, springs_for(ops, nodes).stiffer(factor))
+        stepper = Stepper(ops, feet, constraints="Transformation")
+        stepper.gravity()
+        assert stepper.weight == pytest.approx(9.81 * (2400.0 * 6.0 * 2.0 * 0.3 + 2e3), rel=1e-6)
+        uplifts.append(stepper.run(RECORDS["El Centro x 2"].truncated(2.5)).uplift.max())
+        print(uplifts, stepper.report())
+        assert stepper.steps.taken <= 20_000 and stepper.steps.late == 0
+    assert uplifts[1] == pytest.approx(uplifts[0], rel=0.02) and uplifts[0] > 5e-3
+
+
 def test_the_wall_begins_to_lift_at_the_acceleration_of_statics(ops: Any) -> None:
     """Under a ramp: sum m_i h_i a = (W + T) b about a toe, the bars without a force yet."""
     rate = 0.4  # m/s3
