@@ -5,6 +5,7 @@
 //! cargo bench --bench fixed_steps                 # error over the step, and figures/fixed_steps.png
 //! cargo bench --bench fixed_steps -- search       # beside the best of 500 springs drawn at random
 //! cargo bench --bench fixed_steps -- stance       # error and lost histories over the stance
+//! cargo bench --bench fixed_steps -- events       # with and without event-to-event stepping
 //! ```
 //!
 //! Motions are of seed 31; the search chooses on those of seed 77. No spring of the program was
@@ -15,7 +16,8 @@ use std::path::Path;
 
 use figures::precision::{self, PrecisionFigure, ToolSeries};
 use fixed_steps::{
-    FixedStepBody, FixedStepDesign, FixedStepProgram, FixedStepSprings, Integrator,
+    EventStepping, FixedStepBody, FixedStepDesign, FixedStepProgram, FixedStepSprings, Integrator,
+    ProgramName, StepSettings,
     expected::FLOOR,
     measured::{ErrorsOverMotions, WellConditioned},
     recipe::UnitNumbers,
@@ -46,6 +48,17 @@ const STANCE_SEEDS: [u64; 2] = [5, 6];
 const STANCE_MOTIONS: usize = 64;
 const STANCE_STEPS: [f64; 3] = [1e-2, 1e-3, 2.5e-4];
 
+/// Motions of a row of the fourth command, its steps (s), and its programs: those of CSI test the
+/// unbalance, scripts the change of place.
+const EVENT_MOTIONS: usize = 64;
+const EVENT_STEPS: [f64; 2] = [1e-2, 1e-3];
+const EVENT_PROGRAMS: [(&str, Option<ProgramName>, Integrator); 4] = [
+    ("SAP2000, HHT -1/3", Some(ProgramName::Sap2000), Integrator::HHT_MOST),
+    ("SAP2000, HHT 0", Some(ProgramName::Sap2000), Integrator::Hht { alpha: 0.0 }),
+    ("script, HHT -1/3", None, Integrator::HHT_MOST),
+    ("script, TRBDF2", None, Integrator::Trbdf2),
+];
+
 const INTEGRATORS: [(&str, Integrator); 4] = [
     ("TRBDF2", Integrator::Trbdf2),
     ("backward Euler", Integrator::BackwardEuler),
@@ -68,10 +81,22 @@ fn errors(
     integrator: Integrator,
     numbers: &FixedStepDesign,
 ) -> Option<ErrorsOverMotions> {
-    let springs = FixedStepSprings::designed(&of.body, step, integrator, numbers).ok()?;
     let program = FixedStepProgram { name: None, integrator, step, ..FixedStepProgram::usual() };
+    errors_with(of, &program, numbers, None)
+}
+
+/// The same in any program, steps cut at events or not.
+fn errors_with(
+    of: &WellConditioned,
+    program: &FixedStepProgram,
+    numbers: &FixedStepDesign,
+    events: Option<EventStepping>,
+) -> Option<ErrorsOverMotions> {
+    let FixedStepProgram { integrator, step, .. } = *program;
+    let springs = FixedStepSprings::designed(&of.body, step, integrator, numbers).ok()?;
     let chains = springs.chains();
     let settings = program.settings(chains.vertical.k1, springs.body.mass);
+    let settings = StepSettings { events, ..settings };
     let model = FixedStepBody::new(&springs.body, &chains);
     let all = of.motions.par_iter().map(|motion| motion.errors(&model, settings));
     Some(ErrorsOverMotions::of(all.collect::<Vec<_>>()))
@@ -210,10 +235,42 @@ fn stance() -> Result<(), BenchError> {
     Ok(())
 }
 
+/// What cutting steps at events does: median NRMSE over p dt and histories lost without and with
+/// it, and how many times the iterations it takes.
+fn events() -> Result<(), BenchError> {
+    println!("median NRMSE over p dt (lost): without, with event-to-event stepping; iterations");
+    for (name, body) in bodies()? {
+        for step in EVENT_STEPS {
+            let (own, p_dt) = (design(&body, step), body.p_squared().sqrt() * step);
+            for (program_name, name_of, integrator) in EVENT_PROGRAMS {
+                let body = FixedStepSprings::designed(&body, step, integrator, &own)?.body;
+                let of = WellConditioned::of_seed(&body, SEED, EVENT_MOTIONS, 960);
+                let usual = FixedStepProgram::usual();
+                let program = FixedStepProgram { name: name_of, integrator, step, ..usual };
+                let found = [None, Some(EventStepping::USUAL)]
+                    .map(|events| errors_with(&of, &program, &own, events));
+                let [Some(without), Some(with)] = found else { continue };
+                let told = |errors: &ErrorsOverMotions| {
+                    format!("{:.1} ({})", errors.quantile(0.5) / p_dt, errors.lost())
+                };
+                println!(
+                    "{name}, {step} s, {program_name}, {} motions: {}, {}; {:.2} times",
+                    of.motions.len(),
+                    told(&without),
+                    told(&with),
+                    with.iterations as f64 / without.iterations as f64
+                );
+            }
+        }
+    }
+    Ok(())
+}
+
 fn main() -> Result<(), BenchError> {
     match std::env::args().nth(1).as_deref() {
         Some("search") => search(),
         Some("stance") => stance(),
+        Some("events") => events(),
         _ => over_steps(),
     }
 }

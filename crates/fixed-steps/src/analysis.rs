@@ -7,9 +7,10 @@ use thiserror::Error;
 
 use crate::{
     contact::FixedFoot,
+    events::{EventSearch, EventStepping, FirstEvent, end_substep},
     integrator::Integrator,
     iteration::{Iterates, Iteration},
-    kinematics::Kinematics,
+    kinematics::{Kinematics, StepKinematics},
     model::FixedStepModel,
     rigid::FixedStepBody,
 };
@@ -56,6 +57,8 @@ pub struct StepSettings {
     /// Touch refinement: so many substeps in a step within which a gap is about to open or close,
     /// and in the step after one that did. 1: none.
     pub at_touches: usize,
+    /// Event-to-event stepping: whether and how steps are cut where a contact changes.
+    pub events: Option<EventStepping>,
     /// The iteration at a step's end.
     pub iteration: Iteration,
 }
@@ -63,12 +66,18 @@ pub struct StepSettings {
 impl StepSettings {
     /// Without substeps, the iteration that of scripts.
     pub fn new(integrator: Integrator, step: f64) -> Self {
-        Self { integrator, step, least: step, at_touches: 1, iteration: Iteration::SCRIPT }
+        let (at_touches, events, iteration) = (1, None, Iteration::SCRIPT);
+        Self { integrator, step, least: step, at_touches, events, iteration }
     }
 
     /// With substeps down to this part of a step: 1/16 for instance.
     pub fn with_substeps(self, part: f64) -> Self {
         Self { least: part * self.step, ..self }
+    }
+
+    /// With steps cut at events, for programs that offer it; not together with `at_touches`.
+    pub fn with_events(self, events: EventStepping) -> Self {
+        Self { events: Some(events), ..self }
     }
 
     /// With so many substeps in steps at touches, for springs of any stiffness: a program that can
@@ -117,6 +126,8 @@ pub struct FixedStepWork {
     pub failed: usize,
     /// Iterations, those of failed steps too.
     pub iterations: usize,
+    /// Events at which a step was cut.
+    pub events: usize,
 }
 
 impl FixedStepHistory {
@@ -262,6 +273,9 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
     ) -> Result<(), GaveUp> {
         let longest = self.longest(pace, motion);
         let mut done = 0.0;
+        let mut cuts = self.settings.events.map_or(0, |events| events.most);
+        // what is left of a step after its events is halved down to the same part of it
+        let mut least = self.settings.least;
         while done < self.settings.step * (1.0 - SAME) {
             let this = pace.size.min(self.settings.step - done);
             // the same number each time, to the last digit
@@ -270,14 +284,23 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
             } else {
                 this
             };
+            if cuts > 0 {
+                let from = (begin + done, this);
+                match self.to_event(from, motion, feet, iterates, work) {
+                    Some((size, event)) => {
+                        pace.touched |= event;
+                        cuts -= usize::from(event);
+                        done += size;
+                    }
+                    None => cuts = 0,
+                }
+                least = self.settings.least * (1.0 - done / self.settings.step);
+                continue;
+            }
             let step = motion.step(&self.settings.integrator, this);
             let ground = self.ground(begin + done + step.forces_at());
             if iterates.arrives(self.model, &self.settings.iteration, motion, &step, feet, ground) {
-                motion.advance(&step, &iterates.change);
-                if step.forces_at() != step.size {
-                    let part = step.forces_at() / step.size;
-                    self.model.meet_end(&iterates.places, part, &motion.q, feet);
-                }
+                self.reach(&step, motion, feet, iterates);
                 pace.touched |= feet.as_ref().iter().any(FixedFoot::has_changed);
                 feet.as_mut().iter_mut().for_each(FixedFoot::commit);
                 work.steps += 1;
@@ -285,7 +308,7 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
                 pace.size = (2.0 * pace.size).min(longest);
             } else {
                 work.failed += 1;
-                if 0.5 * this < self.settings.least * (1.0 - SAME) {
+                if 0.5 * this < least * (1.0 - SAME) {
                     return Err(GaveUp { time: begin + done, step: this });
                 }
                 feet.as_mut().iter_mut().for_each(FixedFoot::revert);
@@ -294,6 +317,49 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
             }
         }
         Ok(())
+    }
+
+    /// The end of a step that has arrived.
+    #[inline]
+    fn reach(
+        &self,
+        step: &StepKinematics<M::Vector>,
+        motion: &mut Kinematics<M::Vector>,
+        feet: &mut M::Feet,
+        iterates: &Iterates<M>,
+    ) {
+        motion.advance(step, &iterates.change);
+        if step.forces_at() != step.size {
+            let part = step.forces_at() / step.size;
+            self.model.meet_end(&iterates.places, part, &motion.q, feet);
+        }
+    }
+
+    /// A step of a size from a time, or up to its first event: its size, and whether an event ends
+    /// it. `None` if the usual iteration is to go on from there.
+    fn to_event(
+        &self,
+        (begin, size): (f64, f64),
+        motion: &mut Kinematics<M::Vector>,
+        feet: &mut M::Feet,
+        iterates: &mut Iterates<M>,
+        work: &mut FixedStepWork,
+    ) -> Option<(f64, bool)> {
+        let StepSettings { integrator, step: whole, iteration, .. } = &self.settings;
+        let (model, whole, events) = (self.model, *whole, self.settings.events?);
+        let search = EventSearch { model, events, iteration, integrator, whole };
+        let ground = |after: f64| self.ground(begin + after);
+        match search.first(size, motion, feet, iterates, ground) {
+            FirstEvent::Substep { step, changing } => {
+                self.reach(&step, motion, feet, iterates);
+                end_substep(feet, &changing);
+                feet.as_mut().iter_mut().for_each(FixedFoot::commit);
+                work.steps += 1;
+                work.events += usize::from(!changing.is_empty());
+                Some((step.size, !changing.is_empty()))
+            }
+            FirstEvent::Unclear => None,
+        }
     }
 }
 

@@ -33,6 +33,8 @@ pub struct FixedFoot {
     pub place: [f64; 2],
     /// Whether it pressed at the last step's end.
     was: bool,
+    /// Whether it stays as it was then, whatever its gap.
+    held: bool,
     /// Where its horizontal spring is anchored in this step (m).
     pub anchor: f64,
     /// The same in steps to come (m).
@@ -47,17 +49,22 @@ impl FixedFoot {
 
     /// On the ground or in the air, its horizontal spring without force at `anchor`.
     pub fn new(closed: bool, anchor: f64) -> Self {
-        Self { closed, holds: closed, was: closed, place: [0.0; 2], anchor, next: anchor }
+        let (held, place) = (false, [0.0; 2]);
+        Self { closed, holds: closed, was: closed, held, place, anchor, next: anchor }
     }
 
     /// Decide whether it is closed, and holds, in a trial: its gap's compression d and its distance
     /// across e (m).
     #[inline(always)]
     pub fn meet(&mut self, unit: &Springs<Chain<f64>>, d: f64, e: f64) {
-        self.closed = d >= 0.0;
+        self.closed = if self.held { self.was } else { d >= 0.0 };
         if !self.closed {
             self.holds = false;
             self.next = e;
+            return;
+        }
+        if self.held {
+            self.holds = true;
             return;
         }
         let (trial, most) = (unit.horizontal.k1 * (e - self.anchor), HOLDS * unit.vertical.k1 * d);
@@ -89,6 +96,28 @@ impl FixedFoot {
     #[inline(always)]
     pub fn has_changed(&self) -> bool {
         self.closed != self.was
+    }
+
+    /// Stay as it was at the last step's end until [`FixedFoot::release`], whatever its gap: a
+    /// closed one pulls, an open one goes through the ground.
+    pub(crate) fn hold(&mut self) {
+        self.held = true;
+    }
+
+    /// Open and close with its gap again.
+    pub(crate) fn release(&mut self) {
+        self.held = false;
+    }
+
+    /// Close or open at the end of a trial in which it was held.
+    pub(crate) fn change(&mut self) {
+        self.closed = !self.was;
+        self.holds = self.closed;
+    }
+
+    /// Whether it pressed at the last step's end.
+    pub(crate) fn was_closed(&self) -> bool {
+        self.was
     }
 
     /// The step holds.

@@ -16,6 +16,7 @@
 //! | `contact` | a foot of such a program: open or closed by the trial, its anchor |
 //! | `model` | what is stepped; in `rigid` the rigid body, in `elastic` a frame |
 //! | `iteration`, `analysis` | the iteration at a step's end; the time loop, substeps, what gives up |
+//! | `events` | event-to-event stepping: steps cut where a gap opens or closes |
 //! | `recipe`, `expected`, `rebound` | springs in closed form for a step and an integrator; the error they leave |
 //! | `measured` | the error of springs over many motions |
 //! | `program` | programs as users name them, and what they are set to |
@@ -27,6 +28,7 @@
 pub mod analysis;
 pub mod contact;
 pub mod elastic;
+pub mod events;
 pub mod expected;
 pub mod integrator;
 mod integrator_name;
@@ -41,6 +43,7 @@ pub mod rigid;
 
 pub use analysis::{FixedStepAnalysis, FixedStepHistory, FixedStepOutcome, GaveUp, StepSettings};
 pub use elastic::FixedStepFrame;
+pub use events::EventStepping;
 pub use expected::ExpectedError;
 pub use integrator::Integrator;
 pub use integrator_name::IntegratorNameError;
