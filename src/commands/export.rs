@@ -25,7 +25,7 @@ pub struct ExportOptions {
     /// Springs and structure, as `tune run` writes them
     #[arg(long, value_name = "parameters.json")]
     parameters: PathBuf,
-    /// openseespy, opensees-tcl, sap2000, csv or markdown
+    /// openseespy, opensees-tcl, sap2000, sap2000-sheet, csv or markdown
     #[arg(long)]
     format: DeckFormat,
     /// The deck's file; into a folder under the name that tune run gives it
@@ -36,7 +36,7 @@ pub struct ExportOptions {
     accuracy: f64,
     /// events: steps shorten towards touches; even: steps of one size, on the springs for the
     /// program of `tune run`; touches: even but for substeps at touches, on springs for these
-    /// [default: even for sap2000 where there are such springs, else events]
+    /// [default: even for sap2000 and its sheet where there are such springs, else events]
     #[arg(long, value_name = "HOW")]
     stepping: Option<Stepping>,
     #[command(flatten)]

@@ -15,16 +15,21 @@ pub struct ProgramOptions {
     name: Option<String>,
     /// Its time step in seconds [default: the case's; 0.001, or the first of 0.002, 0.004 and 0.008
     /// that gets an elastic structure through]
-    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = seconds)]
     step: Option<f64>,
-    /// Its integrator: newmark:GAMMA:BETA, hht:ALPHA (0 to -1/3), generalized-alpha:RHO, trbdf2 or
-    /// backward-euler [default: the case's; hht:-0.333 in sap2000 and etabs, backward-euler in
-    /// opensees-even]
+    /// Its integrator: newmark:GAMMA:BETA, hht:ALPHA (0 to -1/3; -1/3 if left out),
+    /// generalized-alpha:RHO, trbdf2 or backward-euler [default: the case's; hht:-0.333 in sap2000
+    /// and etabs, backward-euler in opensees-even]
     #[arg(long, value_name = "NAME")]
     integrator: Option<String>,
     /// A step that fails is halved, down to one in so many; 1: never [default: the case's; 16]
     #[arg(long, value_name = "N")]
     substeps: Option<usize>,
+}
+
+/// A time (s).
+fn seconds(text: &str) -> Result<f64, String> {
+    text.parse().map_err(|_| "give seconds as a number: 0.001".into())
 }
 
 impl ProgramOptions {
