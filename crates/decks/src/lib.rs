@@ -5,7 +5,7 @@
 //! | [`DeckFormat::OpenSeesPy`] | one Python file for `openseespy` that builds, runs and checks itself |
 //! | [`DeckFormat::OpenSeesTcl`] | the same for OpenSees' Tcl interpreter |
 //! | [`DeckFormat::Sap2000`] | .s2k text tables for File > Import > SAP2000 .s2k Text File |
-//! | [`DeckFormat::Sap2000Sheet`] | the same model as a sheet to type from |
+//! | [`DeckFormat::Sap2000Sheet`] | the same model as a sheet to type into SAP2000 or ETABS |
 //! | [`DeckFormat::Csv`], [`DeckFormat::Markdown`] | k1, k2, m2, c per foot and direction, for everyone else |
 //!
 //! Numbers are written with 17 significant digits, so that a deck holds exactly what was tuned. SI
@@ -15,11 +15,13 @@
 #![warn(missing_docs)]
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
+mod beside;
 mod elastic;
 mod expectation;
 mod language;
 mod model;
 mod opensees;
+mod output;
 mod plain;
 mod sap2000;
 mod step_count;
@@ -34,6 +36,7 @@ pub use expectation::{DeckExpectation, foretold_rigid};
 use model::DeckModel;
 pub use model::equal_steps;
 pub use model::{ACCURACY, with_inertia};
+pub use output::OutputSteps;
 use rocking::motion::Motion;
 use springs::{
     parameters::Parameters,

@@ -1,10 +1,13 @@
 //! What every deck needs besides the parameters: stiff legs, steps, tolerances, each with its rule.
 
-use super::{Expected, ExportError, plain::NamedSprings, printable, stepping::EvenSteps};
+use super::{
+    Expected, ExportError, beside::HousnerBeside, plain::NamedSprings, printable,
+    stepping::EvenSteps,
+};
 use dynamics::spring::{Chain, Springs};
 use rocking::{
     members::Members,
-    structure::{Body, Structure},
+    structure::{Body, Kind, Structure},
 };
 use springs::parameters::Parameters;
 use strong_motion::Record;
@@ -93,6 +96,8 @@ pub(super) struct DeckModel<'a> {
     pub even_steps: usize,
     /// Settings of steps of one size, in place of those that follow touches.
     pub even: Option<EvenSteps>,
+    /// Housner's answer beside that of such steps.
+    pub beside: Option<HousnerBeside>,
     pub record: &'a Record,
     pub expected: Expected,
     /// The record's name, harmless in comments.
@@ -150,6 +155,7 @@ impl<'a> DeckModel<'a> {
             rise: SMALL_MOTION * 2.0 * body.half_width * (body.half_width / body.height).atan(),
             even_steps: even_steps(parameters, record.dt),
             even: None,
+            beside: None,
             record,
             expected: *expected,
             record_name: printable(&record.name),
@@ -186,13 +192,15 @@ impl<'a> DeckModel<'a> {
     }
 
     pub(crate) fn title(&self) -> String {
-        format!(
-            "Rocking body, h = {} m, 2b = {} m, m = {} kg, on tuned ground springs: {}",
-            self.structure.height_m,
-            self.structure.width_m,
-            self.structure.mass_kg,
-            self.record_name
-        )
+        let Structure { kind, height_m: h, width_m: width, mass_kg: mass, .. } = self.structure;
+        let body = match kind {
+            Kind::AFrame => format!("A-frame {h} m high, feet {width} m apart"),
+            Kind::Block => {
+                let total = 2.0 * h;
+                format!("Block {total} m high (centre of mass at {h} m), {width} m wide")
+            }
+        };
+        format!("{body}, m = {mass} kg, on tuned ground springs: {}", self.record_name)
     }
 }
 

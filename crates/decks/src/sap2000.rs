@@ -51,7 +51,8 @@ $     wrong by the foot's travel times k1; use it for small rocking only.
 $  2. GeoNonLin of both cases must read 'P-Delta plus Large Displacements': check under Define >
 $     Load Cases.
 @STEPS@
-$  4. The mass source must count added masses only.
+$  4. The mass source must read Element Self Mass and Additional Mass, no load patterns: the
+$     materials' mass and weight per volume are 0.
 $  5. The words for the isolator (LinkType), large displacements (GeoNonLin) and ground acceleration
 $     (LoadType) differ between versions: if the import log names one, set it in the dialog of the
 $     FOOT links or of the load cases.
@@ -62,7 +63,8 @@ const FOR_ITS_STEPS: &str = "\
 $  3. The springs are for the load case's step and integrator. Set under Nonlinear Parameters:
 $     substeps between DTMax and DTMin, no iterations with constant stiffness, Newton-Raphson
 $     iterations and relative tolerance as in the table: an emulation of such steps loses histories
-$     with a tighter tolerance or with constant stiffness.";
+$     with a tighter tolerance or with constant stiffness. No line search: LSPerIter, the most of an
+$     iteration, is 0; the dialog must read Use Line Search: No.";
 /// Of springs for steps that follow touches.
 const NOT_FOR_ITS_STEPS: &str = "\
 $  3. The integrator is Hilber-Hughes-Taylor with alpha = -1/3, the most damped SAP2000 offers;

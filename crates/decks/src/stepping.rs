@@ -14,18 +14,21 @@ use frames::{
     frame::{EquilibriumError, Frame},
 };
 use nalgebra::DVector;
-use rocking::{motion::Motion, scalar::GRAVITY};
+use rocking::{motion::Motion, scalar::GRAVITY, structure::Structure};
 use springs::{
     parameters::{
         Parameters,
-        program::{CornerUnits, NotToBeUsed, ProgramRow, ProgramTest},
+        program::{CornerUnits, ProgramRow, ProgramTest},
     },
+    results::NotToBeUsed,
     tuning::fixed_steps::design,
 };
 use strong_motion::Record;
 
 use crate::{
-    DeckFormat, Expected, ExportError, export_model,
+    DeckFormat, Expected, ExportError,
+    beside::HousnerBeside,
+    export_model,
     model::{DeckModel, with_inertia},
 };
 
@@ -78,6 +81,8 @@ pub(crate) struct EvenSteps {
     pub adds_inertia: bool,
     /// Whether the springs are of no use in such steps, and why.
     pub not_to_be_used: Option<NotToBeUsed>,
+    /// Whether the program is ETABS.
+    pub etabs: bool,
 }
 
 impl EvenSteps {
@@ -99,6 +104,7 @@ impl EvenSteps {
             unbalance,
             adds_inertia: false,
             not_to_be_used: row.not_to_be_used(),
+            etabs: row.is_etabs(),
         })
     }
 
@@ -161,6 +167,8 @@ impl EvenSteps {
 pub(crate) struct Stepped {
     pub parameters: Parameters,
     pub steps: EvenSteps,
+    /// The structure as it was given.
+    pub given: Structure,
 }
 
 impl Stepped {
@@ -171,11 +179,12 @@ impl Stepped {
         // as decks hold it
         let program = Parameters { structure: with_inertia(&program.structure), ..program };
         let touches = if stepping == Stepping::Touches { AT_TOUCHES } else { 1 };
-        let given = parameters.structure.rotational_inertia_kgm2;
-        let adds_inertia = program.structure.rotational_inertia_kgm2 != given;
+        let given = parameters.structure;
+        let adds_inertia =
+            program.structure.rotational_inertia_kgm2 != given.rotational_inertia_kgm2;
         let mut steps = EvenSteps { adds_inertia, ..EvenSteps::new(row, touches)? };
         if touches == 1 {
-            return Ok(Self { parameters: program, steps });
+            return Ok(Self { parameters: program, steps, given });
         }
         steps.unbalance = None;
         let (body, substep) = (program.structure.body(), steps.step / touches as f64);
@@ -186,7 +195,7 @@ impl Stepped {
         let Parameters { structure, .. } = program;
         let refined = Parameters::new(structure, &springs.units);
         let (vertical, horizontal) = (refined.vertical, refined.horizontal);
-        Ok(Self { parameters: Parameters { vertical, horizontal, ..program }, steps })
+        Ok(Self { parameters: Parameters { vertical, horizontal, ..program }, steps, given })
     }
 
     /// The same where a format has words for it.
@@ -227,7 +236,10 @@ impl Stepped {
             _ => None,
         };
         let model = DeckModel::new(&self.parameters, record, &self.expected(motion))?;
-        let text = export_model(&DeckModel { even: Some(self.steps), ..model }, format)?;
+        let beside = (format == DeckFormat::Sap2000Sheet)
+            .then(|| HousnerBeside::of(&self.given, &self.parameters, record, motion));
+        let model = DeckModel { even: Some(self.steps), beside: beside.flatten(), ..model };
+        let text = export_model(&model, format)?;
         Ok(SteppedDeck { text, gives_up_s })
     }
 

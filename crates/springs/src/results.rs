@@ -6,9 +6,21 @@ pub mod forces;
 pub mod peaks;
 
 pub use findings::{
-    DeckEnd, Ending, FiledFinding, Finding, FindingModel, ForceName, NotDone, PeakChange, Weight,
-    apart_words,
+    DeckEnd, Ending, FiledFinding, Finding, FindingModel, ForceName, NotDone, NotToBeUsed,
+    PeakChange, ProgramAdvice, ProgramFault, Weight, apart_words,
 };
 pub use forces::{DesignForce, DesignForces};
 pub use frames::design_forces::{ForcesTogether, MOST_CHANGE, OtherForces};
 pub use peaks::{ForetoldPeaks, PartsOfTop, PeakPair, PeakTimes, Peaks};
+
+/// Up to when a motion can be foretold (s), if that is not all of it.
+pub fn predictable_to(findings: &[FiledFinding]) -> Option<f64> {
+    findings.iter().find_map(|filed| match filed.finding {
+        Finding::ForetoldUpTo { time_s, .. } | Finding::SlidesOn { time_s, .. } => Some(time_s),
+        Finding::IllConditioned { holds_to_s: Some(time_s), .. } => Some(time_s),
+        Finding::DeckJudged { judged_s, end: DeckEnd::Foretold | DeckEnd::Slides, .. } => {
+            Some(judged_s)
+        }
+        _ => None,
+    })
+}

@@ -33,12 +33,7 @@ pub(super) fn loads(parts: &SapModel) -> Vec<SapTable> {
 }
 
 pub(super) fn cases(parts: &SapModel) -> Vec<SapTable> {
-    let samples = parts.samples.saturating_sub(1);
-    // on springs for its steps, it shows every sample and steps in between as it is set to
-    let (step, out_steps) = match parts.even {
-        Some(_) => (parts.record.dt, samples),
-        None => (parts.record.dt / parts.even_steps as f64, samples * parts.even_steps),
-    };
+    let output = parts.output();
     let settings = CaseSettings::of(parts.even);
     vec![
         SapTable::new("LOAD CASE DEFINITIONS")
@@ -73,8 +68,8 @@ pub(super) fn cases(parts: &SapModel) -> Vec<SapTable> {
         ]),
         SapTable::new("CASE - DIRECT HISTORY 1 - GENERAL").row(&[
             ("Case", &"QUAKE"),
-            ("OutSteps", &out_steps),
-            ("StepSize", &digits(step)),
+            ("OutSteps", &output.count),
+            ("StepSize", &digits(output.step_s)),
         ]),
         motions(parts),
         // dashpots and materials have all damping
@@ -94,6 +89,8 @@ pub(super) fn cases(parts: &SapModel) -> Vec<SapTable> {
             ("MaxIterNR", &settings.newton),
             ("ItConvTol", &settings.tolerance),
             ("UseEvStep", &"No"),
+            // line searches of an iteration, at most
+            ("LSPerIter", &0),
         ]),
     ]
 }

@@ -121,6 +121,7 @@ impl<'a> SapModel<'a> {
             record: deck.record,
             samples: deck.samples,
             even,
+            beside: None,
             even_steps: deck.even_steps(),
             joints: build.joints,
             sections: build.sections,

@@ -2,6 +2,8 @@
 //! links, a record.
 
 use crate::{
+    OutputSteps,
+    beside::HousnerBeside,
     model::{DeckModel, digits},
     stepping::EvenSteps,
 };
@@ -103,6 +105,8 @@ pub(crate) struct SapModel<'a> {
     pub even_steps: usize,
     /// Settings of the program whose steps the springs are for.
     pub even: Option<EvenSteps>,
+    /// Housner's answer for the same joint.
+    pub beside: Option<HousnerBeside>,
 }
 
 impl<'a> SapModel<'a> {
@@ -137,12 +141,26 @@ impl<'a> SapModel<'a> {
             samples: e.samples,
             even_steps: model.even_steps,
             even: model.even,
+            beside: model.beside,
         }
     }
 
     /// Where a joint of the structure is (m).
     pub(crate) fn place(&self, tag: usize) -> [f64; 2] {
         self.joints.iter().find(|joint| joint.tag == tag).map_or([0.0; 2], |joint| joint.place)
+    }
+
+    /// What the load case of the record shows: on springs for the program's steps a whole number of
+    /// these at a time, else every step.
+    pub(crate) fn output(&self) -> OutputSteps {
+        let (dt, n) = (self.record.dt, self.even_steps);
+        match self.even {
+            Some(even) => OutputSteps::of(even.step, dt, self.samples),
+            None => {
+                let count = self.samples.saturating_sub(1) * n;
+                OutputSteps { count, step_s: dt / n as f64 }
+            }
+        }
     }
 
     /// What is expected, as a comment.

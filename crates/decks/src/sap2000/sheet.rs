@@ -1,8 +1,12 @@
 //! The model of the tables as a sheet to type from, for who would rather not import a file.
 
+mod compare;
+mod etabs;
+
 use std::fmt::Write;
 
-use super::{FRICTION, KILO, SapModel, cases::CaseSettings, parts::SpringLinks};
+use super::{FRICTION, KILO, MODULUS, SapModel, cases::CaseSettings, parts::SpringLinks};
+use compare::{expected, notes};
 use files::message::significant;
 use rocking::scalar::GRAVITY;
 
@@ -11,9 +15,17 @@ const COLUMN: usize = 13;
 
 /// The sheet.
 pub(crate) fn sheet(parts: &SapModel) -> String {
-    let mut text = format!("{}\nTo type into SAP2000 or ETABS. Units: kN, m, t, s.\n", parts.title);
+    let program = match parts.even {
+        Some(even) if even.etabs => "ETABS",
+        Some(_) => "SAP2000",
+        None => "SAP2000 or ETABS",
+    };
+    let mut text = format!("{}\nTo type into {program}. Units: kN, m, t, s.\n", parts.title);
     if let Some(why) = parts.even.and_then(|even| even.not_to_be_used) {
         text += &format!("{why}.\n");
+    }
+    if parts.even.is_some_and(|even| even.etabs) {
+        text += &etabs::words(parts);
     }
     for (number, part) in [
         joints(parts),
@@ -50,8 +62,7 @@ fn number(x: f64) -> String {
 
 fn joints(parts: &SapModel) -> String {
     let mut text =
-        "Joints in the plane XZ (Analysis Options: UX, UZ, RY). A mass acts in X and Z as \
-                    given.\n"
+        "Joints in the plane XZ (active: UX, UZ, RY). A mass acts in X and Z as given.\n"
             .to_string();
     text += &head(&["joint", "x", "z", "mass in X", "mass in Z", "inertia R2", "held"]);
     let mut joint = |tag: usize, [x, z]: [f64; 2], masses: [f64; 3], held: &str| {
@@ -77,15 +88,22 @@ fn joints(parts: &SapModel) -> String {
     for foot in &parts.feet {
         joint(foot.ground, below(foot.joint, 2.0), [0.0; 3], "all (ground)");
     }
-    text + "   Mass source: added masses only.\n"
+    text + "   Mass source: Element Self Mass and Additional Mass; no load patterns; the \
+            material's mass and weight per\n   volume are 0.\n"
 }
 
 fn frames(parts: &SapModel) -> String {
-    let mut text =
-        "Frames, weightless: section General, material of E = 1 kN/m2 and Poisson's ratio \
-                    0, so that area and inertia are stiffnesses.\n"
-            .to_string();
-    text += &head(&["frame", "joints", "A = EA", "I33 = EI", "AS2 = 2 GAs", "VisStiff"]);
+    let damped = parts.sections.iter().any(|section| section.ahead > 0.0);
+    let modulus = number(MODULUS);
+    let mut text = format!(
+        "Frames, weightless: section General, material of E = {modulus} kN/m2, Poisson's ratio 0, \
+         mass and weight per\n   volume 0. Torsion and I22 as I33, AS3 as AS2: nothing acts on \
+         them in the plane.{}\n",
+        if damped { "" } else { " Additional material\n   damping: none." }
+    );
+    let columns = ["frame", "joints", "A (m2)", "I33 (m4)", "AS2 (m2)", "damping (s)"];
+    text += &head(&columns[..columns.len() - usize::from(!damped)]);
+    let [axial, bending, shear] = [1.0, 1.0, 2.0].map(|factor| factor * KILO / MODULUS);
     for (i, bar) in parts.bars.iter().enumerate() {
         let section = &parts.sections[bar.section];
         let or = |x: f64, no: &str| match x.is_finite() && x > 0.0 {
@@ -93,14 +111,15 @@ fn frames(parts: &SapModel) -> String {
             false => no.into(),
         };
         let [from, to] = bar.joints;
-        text += &line(&[
+        let mut cells = vec![
             (i + 1).to_string(),
             format!("{from} - {to}"),
-            number(section.axial * KILO),
-            number(section.bending * KILO),
-            or(2.0 * section.shear * KILO, "0 (none)"),
-            or(section.ahead, "0"),
-        ]);
+            number(section.axial * axial),
+            number(section.bending * bending),
+            or(section.shear * shear, "0 (none)"),
+        ];
+        cells.extend(damped.then(|| or(section.ahead, "0")));
+        text += &line(&cells);
     }
     text
 }
@@ -108,7 +127,7 @@ fn frames(parts: &SapModel) -> String {
 fn properties(parts: &SapModel) -> String {
     let mut text =
         "Link properties. Local 1 points up, local 2 along +X; shear distance DJ = 0 and \
-                    no mass for all. P-Delta moments to end I. Effective stiffness: the \
+                    no mass for all. P-Delta\n   moments to end I. Effective stiffness: the \
                     same.\n"
             .to_string();
     text += &head(&["property", "direction", "stiffness", "damping", "type"]);
@@ -147,25 +166,29 @@ fn links(parts: &SapModel) -> String {
 }
 
 fn weight(parts: &SapModel) -> String {
-    let mut text =
-        "Load pattern WEIGHT, self weight multiplier 0. Joint forces in Z:\n".to_string();
+    let mut text = format!(
+        "Load pattern WEIGHT, self weight multiplier 0. Joint forces in Z, g = {GRAVITY} m/s2:\n"
+    );
     for joint in parts.joints.iter().filter(|joint| joint.mass > 0.0) {
         let force = number(-joint.mass * GRAVITY * KILO);
         text += &line(&[format!("joint {}", joint.tag), force]);
     }
     text + "   Load case GRAVITY: nonlinear static, WEIGHT, full load, P-Delta plus large \
-            displacements.\n"
+            displacements; all else as\n   the program has it.\n"
 }
 
 fn history(parts: &SapModel) -> String {
     let settings = CaseSettings::of(parts.even);
-    let steps = parts.samples.saturating_sub(1);
-    let dt = parts.record.dt;
-    let whole = parts.record.len().saturating_sub(1);
-    let end = match steps < whole {
+    let (output, dt) = (parts.output(), parts.record.dt);
+    let (followed, whole) = (parts.samples.saturating_sub(1), parts.record.len().saturating_sub(1));
+    let multiple = match output.step_s == dt {
+        true => String::new(),
+        false => format!(" (whole steps; the record's are {} s)", number(dt)),
+    };
+    let end = match followed < whole {
         true => format!(
             ": to {} s of the record's {} s, where the emulation of these steps ends",
-            number(steps as f64 * dt),
+            number(followed as f64 * dt),
             number(whole as f64 * dt)
         ),
         false => String::new(),
@@ -178,7 +201,7 @@ fn history(parts: &SapModel) -> String {
     for (what, value) in [
         ("geometry", "P-Delta plus large displacements".to_string()),
         ("load", motions(parts)),
-        ("output", format!("{steps} steps of {} s{end}", number(dt))),
+        ("output", format!("{} steps of {} s{multiple}{end}", output.count, number(output.step_s))),
         ("damping", "proportional damping 0: mass and stiffness coefficient".into()),
         (
             "integration",
@@ -211,10 +234,11 @@ fn history(parts: &SapModel) -> String {
 
 /// The ground's acceleration, and the files that have it.
 fn motions(parts: &SapModel) -> String {
-    let every = number(parts.record.dt);
+    let (every, values) = (number(parts.record.dt), parts.record.len());
     let across = format!(
-        "acceleration U1, scale 1: function from file ground_motion.txt, one value a line, m/s2, \
-         every {every} s"
+        "acceleration U1, scale 1: function from file ground_motion.txt, {values} values in m/s2, \
+         one a line,\n   {:COLUMN$}from t = 0, every {every} s, no header line",
+        ""
     );
     match parts.record.vertical {
         Some(_) => across + "; U3, scale 1: the same from ground_motion_up.txt",
@@ -222,57 +246,6 @@ fn motions(parts: &SapModel) -> String {
     }
 }
 
-fn expected(parts: &SapModel) -> String {
-    let [u, v] = parts.peaks;
-    let mm = |x: f64| format!("{} mm", significant(1e3 * x, 4));
-    format!(
-        "To compare, joint {}, {}: after GRAVITY U3 = {}. In QUAKE an emulation of these steps \
-         has\n   U1 from {} to {}, U3 at most {} above that. The screen and report.html of the run \
-         have the\n   answer without springs, up to when a motion can be predicted, and by how \
-         much such steps err.\n",
-        parts.watched,
-        parts.watched_is,
-        mm(parts.settled),
-        mm(u.1),
-        mm(u.0),
-        mm(v.0)
-    )
-}
-
-/// What a user must know, and would not expect.
-fn notes(parts: &SapModel) -> String {
-    let mut all = vec![
-        "No springs of a soil: these links make the landing what Housner's theory has it.",
-        "The tolerance is loose on purpose: there are steps at whose end neither a foot on the \
-         ground nor\n     one in the air fits its own force, and a tighter test stops there.",
-        "SAP2000's isolator has a shear force that follows its axial force; the tuned model has a \
-         plain\n     spring that lets go when the foot lifts. With this friction they are the same \
-         but in the air.",
-    ];
-    if parts.even.is_some_and(|even| even.adds_inertia) {
-        all.push(
-            "The inertia R2 at joint 3 belongs to these springs: such steps need some, and a point \
-             mass has\n     none.",
-        );
-    }
-    let pair = |i: usize| parts.bars[..i].iter().any(|bar| bar.joints == parts.bars[i].joints);
-    if (0..parts.bars.len()).any(pair) {
-        all.push(
-            "Two frames between the same joints are meant so: the first bears the axial force, the \
-             second\n     the moment and the shear, each with its own damping. A member's forces \
-             are the sum of both.",
-        );
-    }
-    if parts.sections.iter().any(|section| section.ahead > 0.0) {
-        all.push(
-            "VisStiff: stiffness coefficient of the material's viscous proportional damping; a \
-             material for\n     each value. It must not resist a rotation of the whole structure: \
-             compare a free rocking with\n     and without it.",
-        );
-    }
-    let lines: String = all.iter().map(|note| format!("   - {note}\n")).collect();
-    format!("Notes.\n{lines}")
-}
 /// That a tolerance which looks like a misprint is none.
 fn meant(tolerance: &str) -> &'static str {
     const LARGE: f64 = 0.01;

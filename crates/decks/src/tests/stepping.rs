@@ -81,6 +81,49 @@ fn sap2000_tables_have_the_load_case_of_the_program() {
     }));
 }
 
+/// The program stops at every output time: that is a whole number of its steps, whatever the
+/// record's interval of 0.01 s.
+#[test]
+fn tables_and_sheet_show_whole_steps() {
+    for (step, output) in [(0.02, 0.02), (0.003, 0.009), (0.001, 0.01)] {
+        let parameters = for_program(ProgramName::Sap2000, step);
+        let tables = read_s2k(&text(&parameters, DeckFormat::Sap2000, Stepping::Even));
+        let general = &tables["CASE - DIRECT HISTORY 1 - GENERAL"][0];
+        let settings = &tables["CASE - DIRECT HISTORY 5 - NONLINEAR PARAMETERS"][0];
+        let (shown, count) = (number(general, "StepSize"), number(general, "OutSteps"));
+        assert!((shown / output - 1.0).abs() < 1e-12, "{step}: {shown}");
+        let steps = shown / number(settings, "DTMax");
+        assert!((steps - steps.round()).abs() < 1e-9, "{step}: {steps}");
+        assert!(count * shown < 8.0 + 1e-9, "{step}: {count}");
+        let sheet = text(&parameters, DeckFormat::Sap2000Sheet, Stepping::Even);
+        let line = sheet.lines().find(|line| line.contains("   output ")).unwrap();
+        assert_eq!(numbers_in(line)[..2], [count, output], "{line}");
+    }
+}
+
+/// Frames of the sheet are those of the tables: the same modulus, the same areas.
+#[test]
+fn the_sheet_has_the_sections_of_the_tables() {
+    let parameters = for_program(ProgramName::Sap2000, 0.001);
+    let tables = read_s2k(&text(&parameters, DeckFormat::Sap2000, Stepping::Even));
+    let section = &tables["FRAME SECTION PROPERTIES 01 - GENERAL"][0];
+    let material = &tables["MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES"][0];
+    let sheet = text(&parameters, DeckFormat::Sap2000Sheet, Stepping::Even);
+    let frame = sheet.lines().find(|line| line.contains("1 - 3")).unwrap();
+    let cells: Vec<f64> = frame.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+    for (cell, field) in [(cells[3], "Area"), (cells[4], "I33")] {
+        assert!((cell / number(section, field) - 1.0).abs() < 1e-4, "{field}: {frame}");
+    }
+    let head = sheet.lines().find(|line| line.contains("section General")).unwrap();
+    assert!(numbers_in(head).contains(&number(material, "E1")), "{head}");
+    // no line search, and only masses that are added
+    let settings = &tables["CASE - DIRECT HISTORY 5 - NONLINEAR PARAMETERS"][0];
+    assert_eq!(number(settings, "LSPerIter"), 0.0);
+    let source = &tables["MASS SOURCE"][0];
+    assert_eq!([&source["Elements"], &source["Masses"], &source["Loads"]], ["Yes", "Yes", "No"]);
+    assert_eq!([number(material, "UnitMass"), number(material, "UnitWeight")], [0.0; 2]);
+}
+
 #[test]
 fn the_sheet_to_type_from_has_the_model_of_the_tables() {
     let parameters = for_program(ProgramName::Sap2000, 0.001);

@@ -3,10 +3,17 @@
 use serde::{Deserialize, Serialize};
 
 use super::elastic::CornerRow;
-use crate::tuning::{elastic::program::ElasticProgramSprings, fixed_steps::ProgramSprings};
+use crate::{
+    results::{NotToBeUsed, ProgramAdvice, ProgramFault},
+    tuning::{
+        elastic::program::ElasticProgramSprings,
+        fixed_steps::{LONGEST, ProgramSprings},
+    },
+};
 use dynamics::spring::{Chain, ChainRow, Springs};
-use files::message::percent;
-use fixed_steps::{FixedStepProgram, Integrator, ProgramName, measured::ErrorsOverMotions};
+use fixed_steps::{
+    FixedStepProgram, Integrator, ProgramName, expected::FLOOR, measured::ErrorsOverMotions,
+};
 use rocking::structure::Structure;
 
 /// Errors of histories of a program beside Housner's, over motions; `null` if so many were lost.
@@ -89,6 +96,9 @@ pub struct ProgramRow<U> {
     /// Which: sap2000, etabs, opensees-even; none: any with this integrator.
     #[serde(rename = "for", default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
+    /// Whether a user asked for it: then its springs are judged on earthquake-like motions, too.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub asked: bool,
     /// Its step (s).
     pub step_s: f64,
     /// Its integrator, as `--integrator` takes it.
@@ -122,6 +132,10 @@ pub struct ProgramOnRecord {
     /// When it gives up, if it does (s).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gives_up_s: Option<f64>,
+    /// Whether the motion can be predicted up to the reference's largest top displacement; none:
+    /// not looked at.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub predictable: Option<bool>,
 }
 
 /// Below this a displacement is rounding (m).
@@ -131,7 +145,11 @@ impl ProgramOnRecord {
     /// From the largest top displacements of a history and of the reference, where both stand.
     pub fn of(tops: Option<[f64; 2]>, gives_up_s: Option<f64>) -> Self {
         let top = tops.filter(|[_, reference]| *reference > ROUNDING_M && gives_up_s.is_none());
-        Self { top: top.map(|[found, reference]| found / reference - 1.0), gives_up_s }
+        Self {
+            top: top.map(|[found, reference]| found / reference - 1.0),
+            gives_up_s,
+            predictable: None,
+        }
     }
 }
 
@@ -146,6 +164,7 @@ impl<U> ProgramRow<U> {
         let tolerance = program.tolerance(k1, mass);
         Self {
             name: program.name.map(|name| name.key().into()),
+            asked: false,
             step_s: program.step,
             integrator: program.integrator.to_string(),
             substeps: program.substeps,
@@ -209,30 +228,17 @@ impl ProgramRow<CornerUnits> {
     }
 }
 
-/// Median error of the largest displacement above which springs are of no use.
-const USELESS: f64 = 0.2;
+/// Error of the largest displacement above which springs are of no use: in the median of motions,
+/// or on the run's record.
+pub const USELESS: f64 = 0.1;
+/// A difference of integrators' alpha that is rounding: users write hht:-0.333.
+const SAME_ALPHA: f64 = 1e-3;
 
-/// Why springs are not to be used in a program, in words with what to do.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum NotToBeUsed {
-    /// It gets through less than half of its motions.
-    Lost { lost: usize, motions: usize },
-    /// The largest displacement errs by so much in the median.
-    Errs { median: f64 },
-}
-
-impl std::fmt::Display for NotToBeUsed {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        match self {
-            Self::Lost { lost, motions } => {
-                write!(f, "NOT to be used: fails on {lost} of {motions} motions")?;
-            }
-            Self::Errs { median } => {
-                write!(f, "NOT to be used: peaks err by {} in the median", percent(*median))?;
-            }
-        }
-        write!(f, "; try another --step, longer ones too")
-    }
+/// The largest step of 1, 2 or 5 times a power of ten that is no longer than this (s).
+pub fn round_step(step: f64) -> f64 {
+    let all = (1..=9).flat_map(|k| [5, 2, 1].map(|digit| format!("{digit}e-{k}")));
+    let all = all.filter_map(|text| text.parse::<f64>().ok());
+    all.into_iter().find(|x| *x <= step * (1.0 + 1e-9)).unwrap_or(step)
 }
 
 impl<U> ProgramRow<U> {
@@ -246,23 +252,80 @@ impl<U> ProgramRow<U> {
         matches!(self.known(), Some(ProgramName::Sap2000 | ProgramName::Etabs))
     }
 
+    /// Whether it is ETABS, which reads no tables of SAP2000's.
+    pub fn is_etabs(&self) -> bool {
+        self.known() == Some(ProgramName::Etabs)
+    }
+
     /// Whether it is OpenSees with steps of one size.
     pub fn is_opensees_even(&self) -> bool {
         matches!(self.known(), Some(ProgramName::OpenSees))
     }
 
-    /// Synthetic motions, else those like earthquakes: what decides on whether springs are of use.
-    fn measured(&self) -> Option<ProgramErrors> {
-        self.expected.synthetic.or(self.expected.earthquakes)
+    /// Whether the springs are of no use, why, and what to do.
+    pub fn not_to_be_used(&self) -> Option<NotToBeUsed> {
+        let fault = self.fault()?;
+        Some(NotToBeUsed { fault, advice: self.advice(fault) })
     }
 
-    /// Whether the springs are of no use, and why.
-    pub fn not_to_be_used(&self) -> Option<NotToBeUsed> {
-        let errors = self.measured()?;
+    /// What is wrong with them, if they are of no use: on the set of motions where they err most,
+    /// or on the record where it can be predicted and errs more. Earthquake-like motions count in
+    /// steps that are too long by the law of the floor: in shorter ones the springs' sway errs
+    /// there, at any step.
+    fn fault(&self) -> Option<ProgramFault> {
+        let ProgramExpected { synthetic, earthquakes, floor, .. } = self.expected;
+        let earthquakes = earthquakes.filter(|_| synthetic.is_none() || floor > USELESS);
+        let suites = [(synthetic, false), (earthquakes, true)];
+        let suites = suites.into_iter().filter_map(|(errors, like)| Some((errors?, like)));
+        let median = |errors: &ProgramErrors| errors.peak[0].unwrap_or(f64::INFINITY);
+        let worst = suites.reduce(|a, b| if median(&b.0) > median(&a.0) { b } else { a });
+        let Some((errors, earthquakes)) = worst else {
+            return (floor > FLOOR * LONGEST).then_some(ProgramFault::TooLong { floor });
+        };
         let (lost, motions) = (errors.lost, errors.histories);
-        match errors.peak[0] {
-            None => Some(NotToBeUsed::Lost { lost, motions }),
-            Some(median) => (median > USELESS).then_some(NotToBeUsed::Errs { median }),
+        let Some(median) = errors.peak[0] else {
+            return Some(ProgramFault::Lost { lost, motions });
+        };
+        let on = self.on_record.filter(|on| on.predictable != Some(false));
+        let top = on.and_then(|on| on.top).filter(|top| top.abs() > median.max(USELESS));
+        let on_record = top.map(|top| ProgramFault::OnRecord { top });
+        let on_motions = ProgramFault::Peaks { median, motions, earthquakes };
+        on_record.or((median > USELESS).then_some(on_motions))
+    }
+
+    /// What springs that are of use err on earthquake-like motions, if that is much.
+    pub fn errs_on_earthquakes(&self) -> Option<ProgramErrors> {
+        let errors = self.expected.earthquakes.filter(|_| self.not_to_be_used().is_none())?;
+        errors.peak[0].is_none_or(|median| median > USELESS).then_some(errors)
+    }
+
+    /// What to do about it. Errors are taken to grow as the step does, as the floor.
+    fn advice(&self, fault: ProgramFault) -> ProgramAdvice {
+        let by_law = self.step_s * USELESS / self.expected.floor;
+        let step = |error: f64| ProgramAdvice::Step {
+            step_s: round_step(by_law.min(self.step_s * USELESS / error)),
+        };
+        let too_long = self.step_s > by_law;
+        match fault {
+            ProgramFault::Lost { .. } if too_long => step(USELESS),
+            _ if !too_long && !self.has_usual_integrator() => ProgramAdvice::DefaultIntegrator,
+            ProgramFault::Lost { .. } => ProgramAdvice::AnotherStep,
+            ProgramFault::OnRecord { .. } if !too_long => ProgramAdvice::AnotherStep,
+            ProgramFault::Peaks { median: error, .. }
+            | ProgramFault::OnRecord { top: error }
+            | ProgramFault::TooLong { floor: error } => step(error.abs()),
+        }
+    }
+
+    /// Whether its integrator is the one that is taken unless another one is given.
+    fn has_usual_integrator(&self) -> bool {
+        let usual = self.known().unwrap_or(ProgramName::Sap2000).integrator();
+        match (self.integrator.parse(), usual) {
+            (Ok(Integrator::Hht { alpha }), Integrator::Hht { alpha: usual }) => {
+                (alpha - usual).abs() < SAME_ALPHA
+            }
+            (Ok(given), usual) => given == usual,
+            (Err(_), _) => false,
         }
     }
 
@@ -303,3 +366,6 @@ impl FootUnits {
         Structure { rotational_inertia_kgm2: self.rotational_inertia_kgm2, ..*structure }
     }
 }
+
+#[cfg(test)]
+mod tests;

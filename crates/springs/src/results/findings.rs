@@ -9,10 +9,12 @@ mod advice;
 mod force_name;
 mod message;
 mod not_done;
+mod of_steps;
 
 pub use force_name::ForceName;
 pub use message::{HARDLY_ROCKS, apart_words};
 pub use not_done::NotDone;
+pub use of_steps::{NotToBeUsed, ProgramAdvice, ProgramFault};
 
 /// How much a finding weighs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -156,7 +158,8 @@ pub enum Finding {
         all: usize,
     },
     // springs for a program with fixed time steps
-    /// p dt is beyond what anything is known of.
+    /// p dt is beyond what anything is known of; `longest_s` errs by a tenth, by the law of the
+    /// floor.
     ProgramStepTooLong {
         step_s: f64,
         longest_s: f64,
@@ -171,6 +174,23 @@ pub enum Finding {
         /// Whether it is SAP2000 or ETABS, which have no integrator that loses fewer.
         #[serde(default)]
         csi: bool,
+        asked: bool,
+    },
+    /// The springs err much on earthquake-like motions, which no step mends; `floor` is what the
+    /// step alone makes a history err.
+    ProgramErrsOnEarthquakes {
+        program: String,
+        step_s: f64,
+        median: Option<f64>,
+        motions: usize,
+        floor: f64,
+    },
+    /// The springs are of no use there.
+    ProgramNotToBeUsed {
+        program: String,
+        step_s: f64,
+        fault: ProgramFault,
+        advice: ProgramAdvice,
         asked: bool,
     },
     /// The error asked for takes shorter steps, whatever the springs.
@@ -361,6 +381,7 @@ impl Finding {
             Self::ForetoldUpTo { later_forces, .. } if later_forces.is_empty() => Weight::Note,
             Self::ProgramStepTooLong { asked: false, .. }
             | Self::ProgramLoses { asked: false, .. }
+            | Self::ProgramNotToBeUsed { asked: false, .. }
             | Self::ProgramRestitution { asked: false }
             | Self::ProgramStepForAccuracy { .. } => Weight::Note,
             Self::NearMotions { .. }

@@ -53,6 +53,8 @@ impl Finding {
             }
             Self::ProgramStepTooLong { .. }
             | Self::ProgramLoses { .. }
+            | Self::ProgramNotToBeUsed { .. }
+            | Self::ProgramErrsOnEarthquakes { .. }
             | Self::ProgramStepForAccuracy { .. }
             | Self::ProgramRestitution { .. } => return self.remedy_of_steps(),
             Self::LandingsUnfinished { .. } => "allow other springs: --max-hz, --accuracy",
@@ -76,29 +78,6 @@ impl Finding {
             Self::SmallestSteps { .. } => "compare with OpenSees: tune verify",
             Self::VerticalLeftOut { .. } => "take it: --vertical auto",
             Self::Doubt { remedy, .. } => return Some(remedy.clone()),
-        };
-        Some(text.into())
-    }
-
-    /// Of springs for steps of one size.
-    fn remedy_of_steps(&self) -> Option<String> {
-        let text = match self {
-            Self::ProgramStepTooLong { longest_s, .. } => {
-                return Some(format!("give --step {longest_s:.1e} or less"));
-            }
-            Self::ProgramLoses { csi: true, .. } => {
-                "check that its history ends; else another --step, longer ones too"
-            }
-            Self::ProgramLoses { .. } => {
-                "check that its history ends; else another --step, or --integrator backward-euler"
-            }
-            Self::ProgramStepForAccuracy { .. } => {
-                "take such steps, or substeps at touches: tune export --stepping"
-            }
-            Self::ProgramRestitution { .. } => {
-                "leave the restitution out, or follow touches: OpenSees' deck"
-            }
-            _ => return None,
         };
         Some(text.into())
     }

@@ -79,6 +79,8 @@ impl Finding {
             | Self::MembersBeside => self.springs(),
             Self::ProgramStepTooLong { .. }
             | Self::ProgramLoses { .. }
+            | Self::ProgramNotToBeUsed { .. }
+            | Self::ProgramErrsOnEarthquakes { .. }
             | Self::ProgramStepForAccuracy { .. }
             | Self::ProgramRestitution { .. } => self.program(),
             Self::SearchCut { .. }
@@ -306,33 +308,6 @@ impl Finding {
             Self::MembersBeside => {
                 "springs are tuned for the structure without its dampers, tendon and friction"
                     .into()
-            }
-            _ => String::new(),
-        }
-    }
-
-    /// Springs for a program with fixed time steps.
-    fn program(&self) -> String {
-        match self {
-            Self::ProgramStepTooLong { step_s, .. } => format!(
-                "steps of {} are too long for this structure: nothing is promised of its springs \
-                    for them",
-                quantity(*step_s, "s")
-            ),
-            Self::ProgramLoses { program, step_s, lost, histories, .. } => format!(
-                "on the springs for steps of {} {program} loses {lost} of {histories} histories",
-                quantity(*step_s, "s")
-            ),
-            Self::ProgramStepForAccuracy { step_s, needed_s, accuracy } => format!(
-                "a history within {} (NRMSE) takes steps of {}: at {} no springs come so near",
-                significant(*accuracy, 3),
-                quantity(*needed_s, "s"),
-                quantity(*step_s, "s")
-            ),
-            Self::ProgramRestitution { .. } => {
-                "no springs for fixed time steps: those have equation 2's restitution, not another \
-                    one"
-                .into()
             }
             _ => String::new(),
         }

@@ -1,0 +1,80 @@
+//! The end of the sheet: what to compare, and what a user would not expect.
+
+use super::SapModel;
+use files::message::significant;
+
+/// A range of displacements (m), least first.
+fn range((most, least): (f64, f64)) -> String {
+    format!("U1 from {} to {}", mm(least), mm(most))
+}
+
+fn mm(x: f64) -> String {
+    format!("{} mm", significant(1e3 * x, 4))
+}
+
+/// What the joint that is watched does.
+pub(super) fn expected(parts: &SapModel) -> String {
+    let [u, v] = parts.peaks;
+    let mut text = format!(
+        "To compare, joint {}, {}: after GRAVITY U3 = {}. In QUAKE\n",
+        parts.watched,
+        parts.watched_is,
+        mm(parts.settled)
+    );
+    let whole = format!("{}, U3 at most {} above that", range(u), mm(v.0));
+    match parts.beside {
+        Some(beside) => {
+            let steps = match beside.until_s {
+                // beyond that they are one motion of many
+                Some(until) => {
+                    let until = significant(until, 4);
+                    text += &format!("   up to {until} s, where the motion can be predicted:\n");
+                    format!("{}\n   to the end, these steps: {whole}", range(beside.steps))
+                }
+                None => whole,
+            };
+            let housner = range(beside.housner);
+            text += &format!(
+                "   Housner:                 {housner}\n   these steps (emulated):  {steps}\n"
+            );
+        }
+        None => text += &format!("   these steps (emulated):  {whole}\n"),
+    }
+    text + "   The screen and report.html of the run have the answer without springs, up to when a \
+            motion can be\n   predicted, and by how much such steps err.\n"
+}
+
+/// What a user must know, and would not expect.
+pub(super) fn notes(parts: &SapModel) -> String {
+    let mut all = vec![
+        "No springs of a soil: these links make the landing what Housner's theory has it.",
+        "The tolerance is loose on purpose: there are steps at whose end neither a foot on the \
+         ground nor\n     one in the air fits its own force, and a tighter test stops there.",
+        "The program's isolator has a shear force that follows its axial force; the tuned model \
+         has a plain\n     spring that lets go when the foot lifts. With this friction they are \
+         the same but in the air.",
+    ];
+    if parts.even.is_some_and(|even| even.adds_inertia) {
+        all.push(
+            "The inertia R2 at joint 3 belongs to these springs: such steps need some, and a point \
+             mass has\n     none.",
+        );
+    }
+    let pair = |i: usize| parts.bars[..i].iter().any(|bar| bar.joints == parts.bars[i].joints);
+    if (0..parts.bars.len()).any(pair) {
+        all.push(
+            "Two frames between the same joints are meant so: the first bears the axial force, the \
+             second\n     the moment and the shear, each with its own damping. A member's forces \
+             are the sum of both.",
+        );
+    }
+    if parts.sections.iter().any(|section| section.ahead > 0.0) {
+        all.push(
+            "Damping: stiffness coefficient of the material's viscous proportional damping \
+             (VisStiff in tables),\n     a material for each value. It must not resist a rotation \
+             of the whole structure: compare a free\n     rocking with and without it.",
+        );
+    }
+    let lines: String = all.iter().map(|note| format!("   - {note}\n")).collect();
+    format!("Notes.\n{lines}")
+}

@@ -1,0 +1,132 @@
+use super::*;
+
+/// Errors on 24 motions with this median of peaks; none: most are lost.
+fn errors(median: Option<f64>) -> ProgramErrors {
+    let lost = if median.is_some() { 0 } else { 20 };
+    ProgramErrors { histories: 24, lost, history: [median; 2], peak: [median; 2] }
+}
+
+/// A row at a step of 1 ms whose floor is this.
+fn row(floor: f64, synthetic: Option<f64>) -> ProgramRow<()> {
+    ProgramRow {
+        name: Some("sap2000".into()),
+        asked: true,
+        step_s: 1e-3,
+        integrator: "hht:-0.333".into(),
+        substeps: 16,
+        newton_iterations: 40,
+        converged: ProgramTest::UnbalanceOverWeight(0.1),
+        units: (),
+        stiffer_for_earthquakes: false,
+        expected: ProgramExpected {
+            floor,
+            stance: None,
+            rebound: None,
+            synthetic: Some(errors(synthetic)),
+            earthquakes: None,
+        },
+        on_record: None,
+    }
+}
+
+fn with_top(row: ProgramRow<()>, top: f64, predictable: bool) -> ProgramRow<()> {
+    let predictable = Some(predictable);
+    let on_record = ProgramOnRecord { top: Some(top), gives_up_s: None, predictable };
+    ProgramRow { on_record: Some(on_record), ..row }
+}
+
+fn with_earthquakes(mut row: ProgramRow<()>, median: f64) -> ProgramRow<()> {
+    row.expected.earthquakes = Some(errors(Some(median)));
+    row
+}
+
+fn peaks(median: f64, earthquakes: bool) -> ProgramFault {
+    ProgramFault::Peaks { median, motions: 24, earthquakes }
+}
+
+#[test]
+fn steps_are_rounded_down_to_one_two_or_five() {
+    for (step, rounded) in
+        [(0.0192, 0.01), (0.02, 0.02), (0.0067, 0.005), (9.9e-4, 5e-4), (1e-3, 1e-3), (0.7, 0.5)]
+    {
+        assert_eq!(round_step(step), rounded, "{step}");
+    }
+}
+
+/// A tenth, of motions or of a record that can be predicted, is of no use; the step follows from
+/// the law of the floor and from what was measured.
+#[test]
+fn what_errs_by_more_than_a_tenth_is_not_to_be_used() {
+    let found = |row: &ProgramRow<()>| row.not_to_be_used();
+    for good in [
+        row(0.01, Some(0.09)),
+        with_top(row(0.01, Some(0.01)), -0.09, true),
+        // of a motion that cannot be predicted nothing is judged
+        with_top(row(0.01, Some(0.01)), -0.7, false),
+        // springs sway on earthquakes at any step
+        with_earthquakes(row(0.05, Some(0.01)), 0.3),
+    ] {
+        assert_eq!(found(&good), None, "{good:?}");
+    }
+    let step = |step_s: f64| ProgramAdvice::Step { step_s };
+    for (bad, fault, advice) in [
+        // 1 ms * 0.1/0.25 is below 0.4 ms, and so is 1 ms * 0.1/0.2
+        (row(0.2, Some(0.25)), peaks(0.25, false), step(2e-4)),
+        (row(0.05, Some(0.25)), peaks(0.25, false), step(2e-4)),
+        (with_earthquakes(row(0.2, Some(0.05)), 0.3), peaks(0.3, true), step(2e-4)),
+        (
+            with_top(row(0.2, Some(0.15)), -0.75, true),
+            ProgramFault::OnRecord { top: -0.75 },
+            step(1e-4),
+        ),
+        (
+            with_top(row(0.02, Some(0.01)), 0.12, true),
+            ProgramFault::OnRecord { top: 0.12 },
+            ProgramAdvice::AnotherStep,
+        ),
+        (row(0.02, None), ProgramFault::Lost { lost: 20, motions: 24 }, ProgramAdvice::AnotherStep),
+        (row(0.2, None), ProgramFault::Lost { lost: 20, motions: 24 }, step(5e-4)),
+    ] {
+        assert_eq!(found(&bad), Some(NotToBeUsed { fault, advice }), "{bad:?}");
+    }
+}
+
+#[test]
+fn an_integrator_that_fails_gives_way_to_the_usual_one() {
+    for (name, integrator, usual) in [
+        (Some("sap2000"), "newmark:0.5:0.25", false),
+        (Some("sap2000"), "hht:-0.3333333333333333", true),
+        (Some("opensees-even"), "backward-euler", true),
+        (Some("opensees-even"), "hht:-0.333", false),
+        (None, "newmark:0.5:0.25", false),
+    ] {
+        let failing = ProgramRow {
+            name: name.map(Into::into),
+            integrator: integrator.into(),
+            ..row(0.02, None)
+        };
+        let advice = failing.not_to_be_used().unwrap().advice;
+        assert_eq!(advice != ProgramAdvice::DefaultIntegrator, usual, "{name:?} {integrator}");
+    }
+}
+
+/// Steps beyond those that are measured are refused by the law alone.
+#[test]
+fn steps_too_long_to_be_measured_are_not_to_be_used() {
+    let mut long = row(0.52, None);
+    long.expected.synthetic = None;
+    let NotToBeUsed { fault, advice } = long.not_to_be_used().unwrap();
+    assert_eq!(fault, ProgramFault::TooLong { floor: 0.52 });
+    assert_eq!(advice, ProgramAdvice::Step { step_s: 1e-4 });
+    // a run that was stopped before it measured anything
+    long.expected.floor = 0.01;
+    assert_eq!(long.not_to_be_used(), None);
+}
+
+#[test]
+fn much_error_on_earthquakes_is_told_of_springs_that_are_of_use() {
+    let told = |row: ProgramRow<()>| row.errs_on_earthquakes().and_then(|e| e.peak[0]);
+    assert_eq!(told(with_earthquakes(row(0.05, Some(0.01)), 0.3)), Some(0.3));
+    assert_eq!(told(with_earthquakes(row(0.05, Some(0.01)), 0.08)), None);
+    assert_eq!(told(with_earthquakes(row(0.2, Some(0.01)), 0.3)), None);
+}

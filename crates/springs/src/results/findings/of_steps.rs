@@ -1,0 +1,178 @@
+//! Springs for a program with steps of one size: what is wrong with them, and what to do.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::Finding;
+use files::message::{percent, quantity, significant};
+
+/// What is wrong with springs that are of no use in a program.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ProgramFault {
+    /// It does not get through half of its motions.
+    Lost {
+        /// Motions that it does not get through.
+        lost: usize,
+        /// All motions.
+        motions: usize,
+    },
+    /// The largest displacement errs by too much in the median.
+    Peaks {
+        /// That error, relative.
+        median: f64,
+        /// Of so many motions.
+        motions: usize,
+        /// Whether they are like earthquakes.
+        earthquakes: bool,
+    },
+    /// The largest top displacement on the run's record does, which can be predicted.
+    OnRecord {
+        /// That error, relative, with its sign.
+        top: f64,
+    },
+    /// Steps too long for anything to be measured.
+    TooLong {
+        /// Error of a history that the step alone makes, by 13 p dt.
+        floor: f64,
+    },
+}
+
+/// What to do about springs that are of no use in a program.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ProgramAdvice {
+    /// A shorter step: by the law of the floor, 13 p dt, it errs by less than a tenth.
+    Step {
+        /// That step (s): 1, 2 or 5 times a power of ten.
+        step_s: f64,
+    },
+    /// The integrator that the program is to be set to.
+    DefaultIntegrator,
+    /// No law tells which step.
+    AnotherStep,
+}
+
+/// Why springs are not to be used in a program, and what to do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NotToBeUsed {
+    /// What is wrong.
+    pub fault: ProgramFault,
+    /// What to do.
+    pub advice: ProgramAdvice,
+}
+
+impl fmt::Display for ProgramFault {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Lost { lost, motions } => write!(f, "fails on {lost} of {motions} motions"),
+            Self::Peaks { median, motions, earthquakes } => {
+                let like = if *earthquakes { "earthquake-like " } else { "" };
+                let median = percent(*median);
+                write!(f, "peaks err by {median} in the median of {motions} {like}motions")
+            }
+            Self::OnRecord { top } => {
+                let sign = if *top > 0.0 { "+" } else { "" };
+                write!(f, "this record's top displacement errs by {sign}{}", percent(*top))
+            }
+            Self::TooLong { floor } => write!(
+                f,
+                "such steps are too long to be measured, a history errs by {} or more (13 p dt)",
+                significant(*floor, 2)
+            ),
+        }
+    }
+}
+
+impl fmt::Display for ProgramAdvice {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Step { step_s } => {
+                write!(f, "give --step {step_s} or less (by the law 13 p dt, not measured)")
+            }
+            Self::DefaultIntegrator => {
+                write!(f, "take the default integrator (leave --integrator out)")
+            }
+            Self::AnotherStep => write!(f, "try another --step, longer ones too"),
+        }
+    }
+}
+
+impl fmt::Display for NotToBeUsed {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "NOT to be used: {}; {}", self.fault, self.advice)
+    }
+}
+
+impl Finding {
+    /// Springs for a program with fixed time steps.
+    pub(super) fn program(&self) -> String {
+        match self {
+            Self::ProgramStepTooLong { step_s, .. } => format!(
+                "steps of {} are too long for this structure: nothing is promised of its springs \
+                    for them",
+                quantity(*step_s, "s")
+            ),
+            Self::ProgramLoses { program, step_s, lost, histories, .. } => format!(
+                "on the springs for steps of {} {program} loses {lost} of {histories} histories",
+                quantity(*step_s, "s")
+            ),
+            Self::ProgramNotToBeUsed { program, step_s, fault, .. } => format!(
+                "the springs for steps of {} in {program} are not to be used: {fault}",
+                quantity(*step_s, "s")
+            ),
+            Self::ProgramErrsOnEarthquakes { program, step_s, median, motions, floor } => {
+                let err = match median {
+                    Some(median) => format!("err by {} (median)", percent(*median)),
+                    None => "are lost".into(),
+                };
+                format!(
+                    "peaks in {program} at {} {err} on {motions} earthquake-like motions, by the \
+                        step alone a history by {}",
+                    quantity(*step_s, "s"),
+                    percent(*floor)
+                )
+            }
+            Self::ProgramStepForAccuracy { step_s, needed_s, accuracy } => format!(
+                "a history within {} (NRMSE) takes steps of {}: at {} no springs come so near",
+                significant(*accuracy, 3),
+                quantity(*needed_s, "s"),
+                quantity(*step_s, "s")
+            ),
+            Self::ProgramRestitution { .. } => {
+                "no springs for fixed time steps: those have equation 2's restitution, not another \
+                    one"
+                .into()
+            }
+            _ => String::new(),
+        }
+    }
+
+    /// Of springs for steps of one size.
+    pub(super) fn remedy_of_steps(&self) -> Option<String> {
+        let text = match self {
+            Self::ProgramStepTooLong { longest_s, .. } => {
+                return Some(ProgramAdvice::Step { step_s: *longest_s }.to_string());
+            }
+            Self::ProgramErrsOnEarthquakes { .. } => {
+                "take OpenSees' deck, or judge by many records"
+            }
+            Self::ProgramNotToBeUsed { advice, .. } => return Some(advice.to_string()),
+            Self::ProgramLoses { csi: true, .. } => {
+                "check that its history ends; else another --step, longer ones too"
+            }
+            Self::ProgramLoses { .. } => {
+                "check that its history ends; else another --step, or --integrator backward-euler"
+            }
+            Self::ProgramStepForAccuracy { .. } => {
+                "take such steps, or substeps at touches: tune export --stepping"
+            }
+            Self::ProgramRestitution { .. } => {
+                "leave the restitution out, or follow touches: OpenSees' deck"
+            }
+            _ => return None,
+        };
+        Some(text.into())
+    }
+}
