@@ -35,6 +35,7 @@ pub use accuracy::{AccuracyOn, AccuracyReport};
 pub use displacements::{peak_table, summary};
 pub use markdown::{force_value, height};
 pub use program::ProgramReport;
+pub use springs::results::predictable_to;
 use springs::{
     case::{
         assumptions::{AssumedQuantity, Assumption},
@@ -42,8 +43,8 @@ use springs::{
     },
     parameters::{Parameters, elastic::ElasticParameters},
     results::{
-        DeckEnd, DesignForce, DesignForces, FiledFinding, Finding, ForceName, PeakChange, PeakPair,
-        Weight, findings::HARDLY_ROCKS,
+        DesignForce, DesignForces, FiledFinding, Finding, ForceName, PeakChange, PeakPair, Weight,
+        findings::HARDLY_ROCKS,
     },
 };
 pub use table::Table;
@@ -317,18 +318,6 @@ impl Run {
             })
             .map(|(_, finding)| finding)
     }
-}
-
-/// Up to when a motion can be foretold (s), if that is not all of it.
-pub fn predictable_to(findings: &[FiledFinding]) -> Option<f64> {
-    findings.iter().find_map(|filed| match filed.finding {
-        Finding::ForetoldUpTo { time_s, .. } | Finding::SlidesOn { time_s, .. } => Some(time_s),
-        Finding::IllConditioned { holds_to_s: Some(time_s), .. } => Some(time_s),
-        Finding::DeckJudged { judged_s, end: DeckEnd::Foretold | DeckEnd::Slides, .. } => {
-            Some(judged_s)
-        }
-        _ => None,
-    })
 }
 
 /// With a capital letter and a full stop.

@@ -161,6 +161,10 @@ fn programs(run: &Run) -> (&'static str, &'static str, String) {
                         " <code>decks/model_even.py</code> and <code>decks/model_even.tcl</code> \
                             hold the model, these springs and these settings."
                     }
+                    true if program.etabs => {
+                        " <code>decks/etabs_by_hand.txt</code> holds the model, these springs and \
+                            these settings to type from; ETABS was not run."
+                    }
                     true => {
                         " <code>decks/model_sap2000.s2k</code> holds the model, these springs and \
                             these settings; it could not be tried with the program. \
@@ -179,7 +183,7 @@ fn programs(run: &Run) -> (&'static str, &'static str, String) {
                 format!(
                     "<p>{}: {}{}.{deck}</p>\n",
                     escape(&program.program),
-                    escape(&program.line(true)),
+                    escape(&program.line()),
                     escape(&set_to)
                 )
             }

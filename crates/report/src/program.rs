@@ -1,22 +1,28 @@
 //! Springs for a program with fixed time steps: what it is to be set to, and what they err.
 
+mod errors;
+
 use serde::Serialize;
 
-use super::{Section, Table, Unit, elastic::springs::corner_units, predictable_to, unit_of};
-use files::message::{percent, quantity, significant};
+use super::{Section, Table, Unit, elastic::springs::corner_units, filed, predictable_to, unit_of};
+use decks::OutputSteps;
+use errors::{ErrorWords, errors, table};
+use files::message::{quantity, significant};
 use springs::{
     parameters::{
-        Parameters,
+        Parameters, RecordRow,
         elastic::ElasticParameters,
-        program::{FootUnits, ProgramErrors, ProgramRow, ProgramTest},
+        program::{FootUnits, ProgramOnRecord, ProgramRow, ProgramTest},
     },
-    results::{FiledFinding, Finding, PeakPair},
+    results::{FiledFinding, Finding, NotToBeUsed, PeakPair, ProgramFault},
     tuning::fixed_steps::THROUGH,
 };
 
 /// Letters of a name in the first column of a screen.
 const NAME: usize = 9;
 
+/// Part of a step within which times are the same.
+const SAME: f64 = 1e-6;
 /// A tolerance above which one suspects a misprint.
 const LARGE: f64 = 0.01;
 
@@ -31,9 +37,9 @@ pub struct ProgramReport {
     pub set_to: Vec<ProgramSetting>,
     /// What the springs err there, measured in this run.
     pub errors: String,
-    /// The same in fewer words.
+    /// The same in fewer words, and in fewest.
     #[serde(skip)]
-    short_errors: String,
+    short_errors: [String; 2],
     /// The units, as the run's own.
     pub units: Vec<Unit>,
     /// The same errors in parts and suites.
@@ -48,6 +54,12 @@ pub struct ProgramReport {
     /// Whether it is SAP2000 or ETABS, for which a run writes a sheet to type from.
     #[serde(skip)]
     pub(crate) csi: bool,
+    /// Whether it is ETABS, for which it writes no tables.
+    #[serde(skip)]
+    pub(crate) etabs: bool,
+    /// Whether a user asked for it.
+    #[serde(skip)]
+    pub(crate) asked: bool,
     /// Why they are stiffer than the closed form has them, if they are.
     #[serde(skip)]
     stiffer: Option<&'static str>,
@@ -86,11 +98,12 @@ impl ProgramReport {
             ProgramSetting::new(
                 "rotational inertia at the mass",
                 value.clone(),
-                format!("inertia {value}"),
+                format!("inertia {value} at the mass (these steps need it)"),
             )
         });
         let late = late(parameters.peaks, &parameters.findings);
-        Some(Self::new(row, units.into(), inertia, ("top", "synthetic motions", late)))
+        let told = ("top", "synthetic motions", late);
+        Some(Self::new(row, units.into(), (inertia, output(row, parameters.record.as_ref())), told))
     }
 
     /// Of an elastic structure's springs.
@@ -99,61 +112,30 @@ impl ProgramReport {
         let late = late(parameters.peaks, &parameters.findings);
         // this record among them
         let told = ("peaks", "motions", late);
-        Some(Self::new(row, corner_units(&row.units.springs), None, told))
+        let output = output(row, parameters.record.as_ref());
+        Some(Self::new(row, corner_units(&row.units.springs), (None, output), told))
     }
 
     fn new<U>(
         row: &ProgramRow<U>,
         units: Vec<Unit>,
-        inertia: Option<ProgramSetting>,
-        (peaks, motions, late): (&str, &'static str, bool),
+        (inertia, output): (Option<ProgramSetting>, Option<ProgramSetting>),
+        told: (&str, &'static str, bool),
     ) -> Self {
-        let tolerance = match row.converged {
-            ProgramTest::UnbalanceOverWeight(value) => {
-                let x = significant(value, 3);
-                let name = "iteration convergence tolerance, relative";
-                let short = format!("tolerance {x}");
-                ProgramSetting { meant: value > LARGE, ..ProgramSetting::new(name, x, short) }
-            }
-            ProgramTest::IncrementM(x) => {
-                let x = format!("{} m", significant(x, 3));
-                ProgramSetting::new(
-                    "tolerance of a change of place",
-                    x.clone(),
-                    format!("tolerance {x}"),
-                )
-            }
-        };
-        let (integrator, newton, step) =
-            (row.integrator_words(), row.newton_iterations, row.step_s);
-        let least = quantity(step / row.substeps as f64, "s");
-        let mut set_to = vec![
-            ProgramSetting::new("integrator", integrator.clone(), integrator),
-            ProgramSetting::new(
-                "iterations with constant stiffness",
-                "0".into(),
-                format!("0 constant + {newton} Newton iterations"),
-            ),
-            ProgramSetting::new(
-                "Newton-Raphson iterations, at most",
-                newton.to_string(),
-                String::new(),
-            ),
-            tolerance,
-            ProgramSetting::new("smallest substep", least.clone(), format!("substeps {least}")),
-        ];
-        set_to.extend(inertia);
         Self {
             program: row.program(),
             steps: quantity(row.step_s, "s"),
-            set_to,
-            errors: errors(row, (peaks, motions, late), true),
-            short_errors: errors(row, (peaks, motions, late), false),
+            set_to: settings(row, inertia, output),
+            errors: errors(row, told, ErrorWords::All),
+            short_errors: [ErrorWords::Short, ErrorWords::Fewest]
+                .map(|words| errors(row, told, words)),
             units,
-            table: table(row, motions),
+            table: table(row, told.1),
             usable: row.not_to_be_used().is_none(),
             deck_of_even_steps: row.is_opensees_even(),
             csi: row.is_csi(),
+            etabs: row.is_etabs(),
+            asked: row.asked,
             stiffer: row.stiffer_for_earthquakes.then_some(
                 "Omega_n is twice that of the closed form: earthquake-like motions sway the \
                     structure before it lifts, and their peaks err less on such springs; this \
@@ -167,11 +149,15 @@ impl ProgramReport {
         if self.program.chars().count() <= NAME { &self.program } else { "even step" }
     }
 
-    /// For a screen: what goes wrong and the errors; where there is little room, on how many
-    /// motions and the history's are left out.
-    pub(crate) fn line(&self, room: bool) -> String {
-        let errors = if room { &self.errors } else { &self.short_errors };
-        format!("{} steps: {errors}", self.steps)
+    /// What goes wrong and the errors.
+    pub(crate) fn line(&self) -> String {
+        format!("{} steps: {}", self.steps, self.errors)
+    }
+
+    /// For a screen: the same, then in fewer words, as there is room.
+    pub(crate) fn lines(&self) -> [String; 3] {
+        let [short, fewest] = &self.short_errors;
+        [&self.errors, short, fewest].map(|errors| format!("{} steps: {errors}", self.steps))
     }
 
     /// For a screen: what the program is to be set to; nothing of springs that are not to be used.
@@ -181,7 +167,7 @@ impl ProgramReport {
             true => format!("{} (meant so large)", s.short),
             false => s.short.clone(),
         };
-        told.map(one).collect::<Vec<_>>().join(", ")
+        told.map(one).collect::<Vec<_>>().join("; ")
     }
 
     /// For a report.
@@ -228,8 +214,85 @@ impl ProgramReport {
     }
 }
 
+/// What a program is to be set to, in the order of SAP2000's dialog.
+fn settings<U>(
+    row: &ProgramRow<U>,
+    inertia: Option<ProgramSetting>,
+    output: Option<ProgramSetting>,
+) -> Vec<ProgramSetting> {
+    let set = ProgramSetting::new;
+    let (integrator, newton) = (row.integrator_words(), row.newton_iterations);
+    let [largest, least] = [1, row.substeps].map(|n| significant(row.step_s / n as f64, 4));
+    let mut all = vec![set("integrator", integrator.clone(), integrator)];
+    all.extend(output);
+    let substeps = format!("substeps {largest} to {least} s");
+    all.push(set("largest substep", format!("{largest} s"), substeps));
+    all.push(set("smallest substep", format!("{least} s"), String::new()));
+    all.push(set("iterations with constant stiffness", "0".into(), String::new()));
+    let (name, value, large) = match row.converged {
+        ProgramTest::UnbalanceOverWeight(x) => {
+            ("iteration convergence tolerance, relative", significant(x, 3), x > LARGE)
+        }
+        ProgramTest::IncrementM(x) => {
+            ("tolerance of a change of place", format!("{} m", significant(x, 3)), false)
+        }
+    };
+    let iterations = format!("0 constant + {newton} Newton iterations, tolerance {value}");
+    all.push(set("Newton-Raphson iterations, at most", newton.to_string(), String::new()));
+    all.push(ProgramSetting { meant: large, ..set(name, value, iterations) });
+    if row.is_csi() {
+        let geometry = "P-Delta plus large displacements";
+        all.push(set("geometric nonlinearity", geometry.into(), "large displacements".into()));
+        all.push(set("initial conditions", "continue from GRAVITY".into(), "from GRAVITY".into()));
+    }
+    all.extend(inertia);
+    all
+}
+
+/// The output of SAP2000's load case on a record.
+fn output<U>(row: &ProgramRow<U>, record: Option<&RecordRow>) -> Option<ProgramSetting> {
+    let record = record.filter(|_| row.is_csi())?;
+    let ends = row.on_record.and_then(|on| on.gives_up_s).unwrap_or(f64::INFINITY);
+    let samples = (record.duration_s?.min(ends) / record.dt_s + SAME).floor() as usize + 1;
+    let OutputSteps { count, step_s } = OutputSteps::of(row.step_s, record.dt_s, samples);
+    let output = format!("{count} x {} s", significant(step_s, 4));
+    Some(ProgramSetting::new("output time steps", output.clone(), format!("output {output}")))
+}
+
+/// Findings and, if there is one, that the springs for a program are of no use. Fills in whether
+/// the program was asked for, and whether what its springs err on the record can be predicted.
+pub fn with_verdict<U>(
+    mut findings: Vec<Finding>,
+    row: Option<&mut ProgramRow<U>>,
+    peaks: Option<PeakPair>,
+    asked: bool,
+) -> Vec<Finding> {
+    let Some(row) = row else { return findings };
+    row.asked = asked;
+    let predictable = Some(!late(peaks, &filed(findings.clone())));
+    row.on_record = row.on_record.map(|on| ProgramOnRecord { predictable, ..on });
+    let not_to_be_used = row.not_to_be_used();
+    findings.extend(row.errs_on_earthquakes().map(|errors| Finding::ProgramErrsOnEarthquakes {
+        program: row.program(),
+        step_s: row.step_s,
+        median: errors.peak[0],
+        motions: errors.histories,
+        floor: row.expected.floor,
+    }));
+    let (program, step_s) = (row.program(), row.step_s);
+    findings.extend(not_to_be_used.and_then(|NotToBeUsed { fault, advice }| {
+        // of steps too long to be measured there is a finding already
+        let measured = !matches!(fault, ProgramFault::TooLong { .. });
+        measured.then_some(Finding::ProgramNotToBeUsed { program, step_s, fault, advice, asked })
+    }));
+    findings
+}
+
 /// That a program does not get through one history in twenty.
 pub(crate) fn lost<U>(row: &ProgramRow<U>, asked: bool) -> Option<Finding> {
+    if matches!(row.not_to_be_used(), Some(NotToBeUsed { fault: ProgramFault::Lost { .. }, .. })) {
+        return None;
+    }
     let errors = row.expected.synthetic?;
     let (lost, histories) = (errors.lost, errors.histories);
     let many = lost as f64 > (1.0 - THROUGH) * histories as f64;
@@ -237,123 +300,8 @@ pub(crate) fn lost<U>(row: &ProgramRow<U>, asked: bool) -> Option<Finding> {
     many.then_some(Finding::ProgramLoses { program, step_s, lost, histories, csi, asked })
 }
 
-/// Whether the largest displacement comes after what can be predicted.
+/// Whether the reference's largest displacement comes after what can be predicted.
 fn late(peaks: Option<PeakPair>, findings: &[FiledFinding]) -> bool {
     let largest = peaks.and_then(|pair| pair.reference.times).map(|times| times.top_displacement_s);
     predictable_to(findings).zip(largest).is_some_and(|(until, largest)| largest > until)
-}
-
-/// What goes wrong, if something does; then the errors, largest displacement first: median and what
-/// 90 % are below.
-fn errors<U>(
-    row: &ProgramRow<U>,
-    (peaks, motions, late): (&str, &'static str, bool),
-    room: bool,
-) -> String {
-    let nothing = String::new;
-    let suites =
-        [(motions, row.expected.synthetic), ("earthquake-like motions", row.expected.earthquakes)];
-    let suites = suites.into_iter().filter_map(|(name, errors)| Some((name, errors?)));
-    let suites: Vec<(&str, ProgramErrors)> = suites.collect();
-    let median = |errors: &ProgramErrors| errors.peak[0].unwrap_or(f64::INFINITY);
-    // of the suite where they err most
-    let worst = suites
-        .iter()
-        .copied()
-        .reduce(|one, other| if median(&other.1) > median(&one.1) { other } else { one });
-    let Some((name, errors)) = worst else {
-        return "errors not measured".into();
-    };
-    if let Some(why) = row.not_to_be_used() {
-        return why.to_string();
-    }
-    let cell = |x: Option<f64>| x.map_or("lost".into(), percent);
-    let [median, ninety] = errors.peak.map(cell);
-    let history = errors.history[0];
-    let history = history.map_or(String::new(), |x| format!(", NRMSE {}", significant(x, 2)));
-    let [lost, all] =
-        suites.iter().fold([0; 2], |[lost, all], (_, e)| [lost + e.lost, all + e.histories]);
-    let each = |(name, e): &(&str, ProgramErrors)| format!("{} of {} {name}", e.lost, e.histories);
-    let fails = match lost {
-        0 => nothing(),
-        _ if room => {
-            format!("fails on {}; ", suites.iter().map(each).collect::<Vec<_>>().join(", "))
-        }
-        lost => format!("fails on {lost} of {all}; "),
-    };
-    let [ends, top] = row.on_record.map_or([None; 2], |on| [on.gives_up_s, on.top]);
-    let ends = ends.map_or(nothing(), |s| {
-        format!("this record: gives up at {} s, try another --step; ", significant(s, 3))
-    });
-    let top = top.filter(|_| ends.is_empty());
-    let here = top.map_or(nothing(), |top| match (late, room) {
-        (true, true) => format!("this record: top {} (not predictable); ", signed(top)),
-        // the table of peaks says what the asterisk is
-        (true, false) => format!("here top {}*; ", signed(top)),
-        (false, true) => format!("this record: top {}; ", signed(top)),
-        (false, false) => format!("here top {}; ", signed(top)),
-    });
-    if !room {
-        let told = match errors.peak[0] {
-            Some(_) => format!("{peaks} {median} (median), {ninety} (90 %)"),
-            None => format!("most {name} are lost"),
-        };
-        return format!("{ends}{fails}{here}{told}");
-    }
-    // how many there are is said with those that fail
-    let told = lost > 0 && suites.len() == 1;
-    let on = if told { nothing() } else { format!(" on {} {name}", errors.histories) };
-    let within = match errors.peak[0] {
-        Some(_) => format!("{peaks} within {median} (median), {ninety} (90 %){on}{history}"),
-        None => format!("most {name} are lost"),
-    };
-    format!("{ends}{fails}{here}{within}")
-}
-
-/// A difference with its sign.
-fn signed(share: f64) -> String {
-    let sign = if share > 0.0 && !percent(share).starts_with("below") { "+" } else { "" };
-    format!("{sign}{}", percent(share))
-}
-
-fn table<U>(row: &ProgramRow<U>, motions: &str) -> Table {
-    let expected = &row.expected;
-    let number = |x: f64| significant(x, 2);
-    let cell = |x: Option<f64>| x.map_or("lost".into(), number);
-    let parts = [
-        ("by the step alone, 13 p dt (median)", Some(expected.floor)),
-        ("by the sway before uplift", expected.stance),
-        ("by what a landing gives back", expected.rebound),
-    ];
-    let empty = String::new;
-    let part = |(name, value): (&str, Option<f64>)| {
-        Some(vec![format!("expected {name}"), number(value?), empty(), empty(), empty(), empty()])
-    };
-    let parts = parts.into_iter().filter_map(part);
-    let measured = |name: &str, errors: Option<ProgramErrors>| {
-        errors.map(|e| {
-            let percent = |x: Option<f64>| x.map_or("lost".into(), percent);
-            vec![
-                format!("measured on {} {name}", e.histories),
-                cell(e.history[0]),
-                cell(e.history[1]),
-                percent(e.peak[0]),
-                percent(e.peak[1]),
-                e.lost.to_string(),
-            ]
-        })
-    };
-    let measured = [
-        measured(motions, expected.synthetic),
-        measured("earthquake-like motions", expected.earthquakes),
-    ];
-    Table::new([
-        "error",
-        "history, NRMSE, median",
-        "90 %",
-        "largest displacement, median",
-        "90 %",
-        "lost",
-    ])
-    .with(parts.chain(measured.into_iter().flatten()))
 }

@@ -9,6 +9,7 @@ pub mod tables;
 use super::{
     AccuracyReport, Assumed, FiledParameters, ProgramReport, Run, Section, Taken, changes, doubts,
     filed, judged, predictable_to,
+    program::with_verdict,
     reference::{self, HousnerReport, friction_needed},
     stiffness_tradeoff::TradeoffPoint,
     unit_of,
@@ -99,7 +100,9 @@ impl RigidRun {
         parameters.design_forces =
             Some(design_forces(kind, &job.body, &job.record, &both, softer.as_ref(), until));
         let mut run = Self { case, job, front, both, report, of_steps, parameters };
-        run.parameters.findings = filed(run.findings());
+        let (findings, asked) = (run.findings(), run.case.program.is_some());
+        let Parameters { program: row, peaks, .. } = &mut run.parameters;
+        run.parameters.findings = filed(with_verdict(findings, row.as_mut(), *peaks, asked));
         let until = predictable_to(&run.parameters.findings);
         run.parameters.design_forces =
             run.parameters.design_forces.map(|forces| forces.foretold_to(until));
@@ -251,8 +254,9 @@ pub fn of_case(case: &Case, mut parameters: Parameters) -> Run {
     let search = parameters.findings.iter().map(|filed| filed.finding.clone());
     let found =
         search.chain(doubts(case.doubts_of_structure())).chain(springs_findings(&parameters));
-    let found = found.chain(program::findings(case, &parameters));
-    parameters.findings = filed(found);
+    let found = found.chain(program::findings(case, &parameters)).collect();
+    let (row, asked) = (parameters.program.as_mut(), case.program.is_some());
+    parameters.findings = filed(with_verdict(found, row, None, asked));
     alone(parameters)
 }
 

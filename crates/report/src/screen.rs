@@ -85,8 +85,12 @@ pub(crate) const NO_PROGRAM: &str = "not these springs: programs with steps of o
     others; there are none for this structure";
 /// The deck of OpenSees with steps of one size.
 pub const EVEN_DECK: &str = "model_even.py";
-/// The model for SAP2000 and ETABS as a sheet to type from.
+/// The model for SAP2000 as a sheet to type from.
 pub const SHEET: &str = "sap2000_by_hand.txt";
+/// The same for ETABS.
+pub const ETABS_SHEET: &str = "etabs_by_hand.txt";
+/// What a unit is made of, from above.
+const UNIT: &str = "foot - k1 (gap) - m2 - k2 and c - ground";
 /// Letters of a path in a command.
 const LONGEST_PATH: usize = 58;
 /// Lines that a doubt of what was given may take.
@@ -118,21 +122,21 @@ impl Written<'_> {
 
     /// The last line: where the report is, how many warnings are there alone, and the file to type
     /// a model from for a program.
-    fn report_line(&self, warnings: usize, program: Option<&str>) -> String {
+    fn report_line(&self, warnings: usize, sheet: Option<&str>) -> String {
         let name = if self.report { "report.html" } else { "parameters.json" };
         let more = match warnings {
             0 => String::new(),
             1 => ", with 1 more warning".into(),
             more => format!(", with {more} more warnings"),
         };
-        let typed = program.filter(|_| self.decks);
-        let typed = typed.map(|program| format!("; for {program}, beside it: decks/{SHEET}"));
-        let path = self.file(name);
-        let all = format!("{REPORT}{path}{more}{}", typed.unwrap_or_default());
-        match all.chars().count() <= WIDTH {
-            true => all,
-            false => format!("{REPORT}{path}{more}"),
-        }
+        let all = format!("{REPORT}{}{more}", self.file(name));
+        let Some(sheet) = sheet.filter(|_| self.decks) else { return all };
+        let to_type = if sheet == ETABS_SHEET { "ETABS: to be typed" } else { "type it" };
+        // a path to copy, if there is room for it
+        let path = format!("{}/decks/{sheet}", self.folder.trim_end_matches('/'));
+        let places = [path, format!("decks/{sheet} beside it")];
+        let lines = places.map(|place| format!("{all}; {to_type} from {place}"));
+        lines.into_iter().find(|line| line.chars().count() <= WIDTH).unwrap_or(all)
     }
 }
 
@@ -160,7 +164,7 @@ pub fn screen(run: &Run, written: &Written) -> String {
 /// The file to type from, if there is one.
 fn sheet_of(run: &Run) -> Option<&str> {
     let program = run.program.as_ref().filter(|program| program.csi && program.usable)?;
-    run.sap2000.then(|| program.short())
+    run.sap2000.then_some(if program.etabs { ETABS_SHEET } else { SHEET })
 }
 
 impl Run {
@@ -190,6 +194,9 @@ fn answer(run: &Run, written: &Written, crowding: Crowding) -> Vec<String> {
     lines.extend(peaks.into_iter().flatten());
     lines.extend(forces::lines(run, crowding.tight));
     springs(run, &mut lines);
+    if !crowding.tight {
+        lines.push(format!("  {}, each direction: {UNIT}", run.springs_at));
+    }
     if let Some(accuracy) = &run.accuracy {
         let parts = accuracy.short(crowding.measured, run.unjudged());
         // as many parts as there is room for
@@ -283,9 +290,15 @@ fn springs(run: &Run, lines: &mut Vec<String>) {
             table.rows.push([vec![name], cells.into()].concat());
         }
     };
-    add(steps.as_ref().map(|_| "OpenSees deck only"), &run.springs);
+    let own = (steps.as_ref().map(|_| "OpenSees deck only"), &run.springs);
     let usable = run.program.iter().filter(|program| program.usable);
-    usable.for_each(|program| add(steps.as_deref(), &program.units));
+    let mut all: Vec<_> =
+        [own].into_iter().chain(usable.map(|program| (steps.as_deref(), &program.units))).collect();
+    // those that were asked for, first
+    if run.program.as_ref().is_some_and(|program| program.asked) {
+        all.reverse();
+    }
+    all.into_iter().for_each(|(of, units)| add(of, units));
     let mut all = table.lines();
     let note = match run.springs.len() {
         n if n > SHOWN => format!("{SAID}; {} more units: parameters.json", n - SHOWN),
@@ -323,10 +336,17 @@ fn next(run: &Run, written: &Written, crowding: Crowding, lines: &mut Vec<String
     match &run.program {
         Some(program) => {
             let name = format!("{:10}", program.short());
-            at_most(crowding.program, lines, &name, &program.line(crowding.program > 1));
+            // the words that fit; the fewest are not cut
+            let mut told = program.lines().map(|text| {
+                let mut some = Vec::new();
+                wrap(&mut some, &name, &text);
+                some
+            });
+            let fits = told.iter().position(|some| some.len() <= crowding.program);
+            lines.append(&mut told[fits.unwrap_or(told.len() - 1)]);
             let settings = program.settings(crowding.program > 1);
             if !settings.is_empty() {
-                at_most(if crowding.tight { 1 } else { 2 }, lines, "  set to  ", &settings);
+                at_most(if crowding.tight { 2 } else { 3 }, lines, "  set to  ", &settings);
             }
             if written.decks && program.deck_of_even_steps {
                 let deck = format!("python3 {}", written.file(&format!("decks/{EVEN_DECK}")));

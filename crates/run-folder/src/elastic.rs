@@ -25,7 +25,9 @@ use report::{
     filed,
     markdown::markdown,
     page::page,
-    predictable_to, summary,
+    predictable_to,
+    program::with_verdict,
+    summary,
 };
 use springs::{
     case::{Asked, ElasticCase},
@@ -213,7 +215,9 @@ impl ElasticRun {
         }
         run.parameters.design_forces =
             Some(design_forces(&run.assembled.structure, &run.answer.design));
-        run.parameters.findings = filed(run.parts().findings(&run.parameters));
+        let (findings, asked) = (run.parts().findings(&run.parameters), run.case.program.is_some());
+        let ElasticParameters { program: row, peaks, .. } = &mut run.parameters;
+        run.parameters.findings = filed(with_verdict(findings, row.as_mut(), *peaks, asked));
         run.parameters.peaks = Some(run.parts().foretold_peaks(&run.parameters.findings));
         let until = predictable_to(&run.parameters.findings);
         run.parameters.design_forces =
@@ -273,8 +277,8 @@ impl ElasticRun {
             ("members.csv", demands::csv(self, Instants::Samples)),
             ("members_envelopes.csv", demands::csv(self, Instants::Envelopes)),
         ];
-        let decks = models::decks(|format| self.deck(format))?;
         let program = self.parameters.program.as_ref();
+        let decks = models::decks(program, |format| self.deck(format))?;
         let of_steps = |row| {
             let deck = |format| self.stepped(row, format);
             Ok::<_, FolderError>(models::even_decks(Some(row), deck)?.and(models::sheet(

@@ -1,7 +1,7 @@
 //! The decks of a run.
 
 use decks::{DeckFormat, ExportError, SteppedDeck};
-use report::screen::{EVEN_DECK, SHEET};
+use report::screen::{ETABS_SHEET, EVEN_DECK, SHEET};
 use springs::parameters::program::ProgramRow;
 use strong_motion::Record;
 
@@ -23,11 +23,16 @@ pub const DECKS: [(&str, DeckFormat); 5] = [
 const EVEN_DECKS: [(&str, DeckFormat); 2] =
     [(EVEN_DECK, DeckFormat::OpenSeesPy), ("model_even.tcl", DeckFormat::OpenSeesTcl)];
 
-/// Every deck; what is to be said of them: left out, with the reason, or ended early.
-pub(crate) fn decks(
+/// Every deck; what is to be said of them: left out, with the reason, or ended early. ETABS does
+/// not read SAP2000's tables: where its springs are asked for there are none.
+pub(crate) fn decks<U>(
+    program: Option<&ProgramRow<U>>,
     text: impl Fn(DeckFormat) -> Result<(String, Option<String>), ExportError>,
 ) -> Result<RunTexts, FolderError> {
-    gathered(&DECKS, |_, format| text(format))
+    let etabs = program.is_some_and(ProgramRow::is_etabs);
+    let written = |(_, format): &(&str, DeckFormat)| !(etabs && *format == DeckFormat::Sap2000);
+    let decks: Vec<_> = DECKS.into_iter().filter(written).collect();
+    gathered(&decks, |_, format| text(format))
 }
 
 /// The decks for OpenSees with steps of one size; none for another program.
@@ -51,8 +56,9 @@ pub(crate) fn sheet<U>(
     if !program.is_some_and(ProgramRow::is_csi) {
         return Ok(RunTexts::default());
     }
+    let name = if program.is_some_and(ProgramRow::is_etabs) { ETABS_SHEET } else { SHEET };
     let texts =
-        gathered(&[(SHEET, DeckFormat::Sap2000Sheet)], |_, format| Ok((deck(format)?.text, None)))?;
+        gathered(&[(name, DeckFormat::Sap2000Sheet)], |_, format| Ok((deck(format)?.text, None)))?;
     let mut files = texts.files;
     if !files.is_empty() {
         let motion = |name: &str, all: &[f64]| {

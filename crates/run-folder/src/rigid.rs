@@ -41,6 +41,7 @@ const FILES: &[&str] = &[
     "decks/model_even.tcl",
     "decks/model_sap2000.s2k",
     "decks/sap2000_by_hand.txt",
+    "decks/etabs_by_hand.txt",
     "decks/ground_motion.txt",
     "decks/ground_motion_up.txt",
     "decks/springs.csv",
@@ -183,7 +184,7 @@ fn run_decks(parameters: &Parameters, rigid: &RigidRun) -> Result<RunTexts, Fold
         let program = parameters.program.as_ref().filter(|_| format == DeckFormat::Sap2000)?;
         program.is_csi().then(|| Ok(stepped(format)?.told(SAP2000)))
     };
-    let all = models::decks(|format| {
+    let all = models::decks(parameters.program.as_ref(), |format| {
         let plain = || Ok((decks::export(&parameters, record, &expected, format)?, None));
         for_its_steps(format).unwrap_or_else(plain)
     })?;

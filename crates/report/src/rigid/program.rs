@@ -8,7 +8,10 @@ use rocking::motion::Motion;
 use springs::{
     answers::ModelComparison,
     case::{Case, Yardstick},
-    parameters::{Parameters, program::ProgramOnRecord},
+    parameters::{
+        Parameters,
+        program::{ProgramOnRecord, USELESS, round_step},
+    },
     results::{Finding, Peaks},
     tuning::{fixed_steps::LONGEST, landing_simulation::differs_from_housner},
 };
@@ -23,8 +26,8 @@ pub(super) fn findings(case: &Case, parameters: &Parameters) -> Vec<Finding> {
     };
     let FixedStepProgram { step: step_s, .. } =
         case.program.unwrap_or_else(FixedStepProgram::usual);
-    let longest_s = LONGEST / body.p_squared().sqrt();
-    if step_s > longest_s {
+    if step_s > LONGEST / body.p_squared().sqrt() {
+        let longest_s = round_step(step_for(&body, USELESS));
         return vec![Finding::ProgramStepTooLong { step_s, longest_s, asked }];
     }
     let mut all: Vec<Finding> = lost(row, asked).into_iter().collect();

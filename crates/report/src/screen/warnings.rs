@@ -34,6 +34,11 @@ pub(super) fn is_doubt(filed: &FiledFinding) -> bool {
     matches!(filed.finding, Finding::Doubt { .. })
 }
 
+/// Whether the line of the program says it already.
+fn is_of_program(filed: &FiledFinding) -> bool {
+    matches!(filed.finding, Finding::ProgramNotToBeUsed { .. } | Finding::ProgramStepTooLong { .. })
+}
+
 /// A warning, and what to do.
 pub(super) struct Warned {
     /// What its line begins with.
@@ -99,7 +104,8 @@ fn ends_a_part(word: &str) -> bool {
 
 /// Warnings in words, the gravest first.
 pub(super) fn warnings(run: &Run, of_decks: &[String]) -> Vec<Warned> {
-    let of_run = run.remarks().filter(|f| f.weight >= Weight::Warning && !is_doubt(f));
+    let told = |f: &FiledFinding| is_doubt(f) || is_of_program(f);
+    let of_run = run.remarks().filter(|f| f.weight >= Weight::Warning && !told(f));
     let of_deck = |line: &String| {
         let (message, remedy) = line.split_once(": ").unwrap_or((line, ""));
         let remedy =

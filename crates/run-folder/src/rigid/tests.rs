@@ -2,7 +2,11 @@
 //! nothing from elsewhere.
 
 use report::screen::{Written, screen};
-use springs::{case::Case, tuning::job::Job};
+use springs::{
+    case::Case,
+    results::{Finding, ProgramAdvice, Weight},
+    tuning::job::Job,
+};
 use strong_motion::Record;
 use strong_motion::excitation::Excitation;
 
@@ -79,6 +83,80 @@ fn a_page_without_figures_is_whole() {
     assert!(page.contains("<div class=\"tiles\">") && page.contains("id=\"verdict\""));
 }
 
+/// The paper's frame, for a program with steps of this size (s).
+fn run_for(program: &str, step_s: f64) -> RigidRun {
+    let frame = "[structure]\nkind = \"aframe\"\nheight_m = 61.0\nwidth_m = 12.2\n\
+        mass_kg = 680.1e3\n";
+    run(1.0, Some(&format!("{frame}[program]\nfor = \"{program}\"\nstep_s = {step_s:?}\n")))
+}
+
+/// A program's decks, what the screen says of them, and Housner's numbers in the sheet.
+#[test]
+fn a_program_that_is_asked_for_has_its_sheet() {
+    for (name, sheet, other, says) in [
+        ("SAP2000", "sap2000_by_hand.txt", "etabs_by_hand.txt", "; type it from"),
+        ("ETABS", "etabs_by_hand.txt", "sap2000_by_hand.txt", "; ETABS: to be typed"),
+    ] {
+        let run = run_for(name, 1e-3);
+        let texts = texts(&run, Path::new("out")).unwrap();
+        let find = |of: &str| texts.files.iter().find(|(file, _)| file == &format!("decks/{of}"));
+        assert!(find(other).is_none());
+        assert_eq!(find("model_sap2000.s2k").is_some(), name == "SAP2000");
+        let (_, sheet_text) = find(sheet).unwrap();
+        let said = run.said(filed(&run, Path::new("out")));
+        let written = Written { folder: "out", report: true, decks: true, left_out: &[] };
+        let text = screen(&said, &written);
+        let last = text.lines().last().unwrap();
+        assert!(last.contains(says) && last.ends_with(&format!("out/decks/{sheet}")), "{last}");
+        // its springs first, and nothing of its lines cut
+        let place = |what: &str| text.find(what).unwrap();
+        assert!(place(", 1 ms: vertical") < place("OpenSees deck only: vertical"), "{text}");
+        let lines = text.lines().skip_while(|line| !line.starts_with(name));
+        let of_program: String = lines.map(|line| format!("{}\n", line.trim_start())).collect();
+        assert!(!of_program.contains("..."), "{text}");
+        // all that the form of the load case asks for
+        for what in [
+            "HHT alpha -1/3",
+            "output 800 x 0.01 s",
+            "substeps 0.001 to 6.25e-5 s",
+            "0 constant + 40",
+            "large displacements",
+            "from GRAVITY",
+        ] {
+            assert!(of_program.contains(what), "{what}: {text}");
+        }
+        // the joint of the sheet does in Housner's history what the run found
+        let line = sheet_text.lines().find(|line| line.contains("   Housner: ")).unwrap();
+        let numbers: Vec<f64> = line.split(' ').filter_map(|word| word.parse().ok()).collect();
+        let u = &run.both.housner.u;
+        let extremes =
+            [u.iter().copied().fold(0.0, f64::min), u.iter().copied().fold(0.0, f64::max)];
+        for (told, found) in numbers.iter().zip(extremes) {
+            assert!((told - 1e3 * found).abs() < 0.1 + 1e-3 * told.abs(), "{line}: {extremes:?}");
+        }
+    }
+}
+
+/// A step that is far too long is told in the findings, with the number, and no sheet is offered.
+#[test]
+fn a_step_that_is_too_long_is_not_to_be_used() {
+    let run = run_for("SAP2000", 0.05);
+    let row = run.parameters.program.as_ref().unwrap();
+    let on_record = row.on_record.unwrap();
+    assert_eq!(on_record.predictable, Some(true));
+    let expected = row.not_to_be_used().unwrap();
+    let told = run.parameters.findings.iter().find_map(|filed| match &filed.finding {
+        Finding::ProgramNotToBeUsed { fault, advice, .. } => Some((filed.weight, *fault, *advice)),
+        _ => None,
+    });
+    assert_eq!(told, Some((Weight::Warning, expected.fault, expected.advice)));
+    assert!(matches!(expected.advice, ProgramAdvice::Step { step_s } if step_s <= 0.01));
+    let said = run.said(filed(&run, Path::new("out")));
+    let written = Written { folder: "out", report: true, decks: true, left_out: &[] };
+    let text = screen(&said, &written);
+    assert!(!text.contains("_by_hand"), "{text}");
+}
+
 /// Digits of a number, without zeros before the first and after the last.
 fn digits(word: &str) -> usize {
     let number = word.trim_matches(|c: char| !c.is_ascii_digit() && c != '-');
@@ -108,6 +186,7 @@ fn check_screen(run: &RigidRun, folder: &str) -> String {
         "not soil",
         "accuracy",
         "SAP2000",
+        "foot - k1 (gap) - m2 - k2 and c - ground",
     ] {
         assert!(text.contains(what), "{what}: {text}");
     }

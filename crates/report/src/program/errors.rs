@@ -1,0 +1,139 @@
+//! What springs err in a program with fixed time steps, in a line and in a table.
+
+use crate::Table;
+use files::message::{percent, significant};
+use springs::parameters::program::{ProgramErrors, ProgramRow};
+
+/// How much is told of errors.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum ErrorWords {
+    /// All.
+    All,
+    /// How many motions are lost in all, not of each set.
+    Short,
+    /// Nor on which motions, and what they are not judged on.
+    Fewest,
+}
+
+/// What goes wrong, if something does; then the errors, largest displacement first: median and what
+/// 90 % are below.
+pub(super) fn errors<U>(
+    row: &ProgramRow<U>,
+    (peaks, motions, late): (&str, &'static str, bool),
+    words: ErrorWords,
+) -> String {
+    if let Some(why) = row.not_to_be_used() {
+        return why.to_string();
+    }
+    let nothing = String::new;
+    let suites =
+        [(motions, row.expected.synthetic), ("earthquake-like motions", row.expected.earthquakes)];
+    let suites = suites.into_iter().filter_map(|(name, errors)| Some((name, errors?)));
+    let suites: Vec<(&str, ProgramErrors)> = suites.collect();
+    let median = |errors: &ProgramErrors| errors.peak[0].unwrap_or(f64::INFINITY);
+    // of the suite where they err most
+    let worst = suites
+        .iter()
+        .copied()
+        .reduce(|one, other| if median(&other.1) > median(&one.1) { other } else { one });
+    let Some((name, errors)) = worst else {
+        return "errors not measured".into();
+    };
+    let cell = |x: Option<f64>| x.map_or("lost".into(), percent);
+    let [median, ninety] = errors.peak.map(cell);
+    let history = errors.history[0];
+    let history = history.map_or(String::new(), |x| format!(", NRMSE {}", significant(x, 2)));
+    let [lost, all] =
+        suites.iter().fold([0; 2], |[lost, all], (_, e)| [lost + e.lost, all + e.histories]);
+    let each = |(name, e): &(&str, ProgramErrors)| format!("{} of {} {name}", e.lost, e.histories);
+    let fails = match (lost, words) {
+        (0, _) => nothing(),
+        (_, ErrorWords::All) => {
+            format!("fails on {}; ", suites.iter().map(each).collect::<Vec<_>>().join(", "))
+        }
+        _ => format!("fails on {lost} of {all}; "),
+    };
+    let [ends, top] = row.on_record.map_or([None; 2], |on| [on.gives_up_s, on.top]);
+    let ends = ends.map_or(nothing(), |s| {
+        format!("this record: gives up at {} s, try another --step; ", significant(s, 3))
+    });
+    let top = top.filter(|_| ends.is_empty());
+    let fewest = words == ErrorWords::Fewest;
+    let here = top.map_or(nothing(), |top| match (late, fewest) {
+        (true, false) => format!("this record: top {} (not predictable); ", signed(top)),
+        // the table of peaks says what the asterisk is
+        (true, true) => format!("here top {}*; ", signed(top)),
+        (false, false) => format!("this record: top {}; ", signed(top)),
+        (false, true) => format!("here top {}; ", signed(top)),
+    });
+    if fewest {
+        let told = match errors.peak[0] {
+            Some(_) => format!("{peaks} {median} (median), {ninety} (90 %){history}"),
+            None => format!("most {name} are lost"),
+        };
+        return format!("{ends}{fails}{here}{told}");
+    }
+    // how many there are is said with those that fail
+    let told = lost > 0 && suites.len() == 1;
+    let on = if told { nothing() } else { format!(" on {} {name}", errors.histories) };
+    let within = match errors.peak[0] {
+        Some(_) => format!("{peaks} within {median} (median), {ninety} (90 %){on}{history}"),
+        None => format!("most {name} are lost"),
+    };
+    // a rigid body's alone: others are judged on what they have
+    let unjudged =
+        !row.asked && row.expected.earthquakes.is_none() && row.expected.stance.is_some();
+    let again = match row.name.as_deref().filter(|_| unjudged) {
+        Some(key) => format!("; not judged on earthquakes: run again with --for {key}"),
+        None => nothing(),
+    };
+    format!("{ends}{fails}{here}{within}{again}")
+}
+
+/// A difference with its sign.
+fn signed(share: f64) -> String {
+    let sign = if share > 0.0 && !percent(share).starts_with("below") { "+" } else { "" };
+    format!("{sign}{}", percent(share))
+}
+
+pub(super) fn table<U>(row: &ProgramRow<U>, motions: &str) -> Table {
+    let expected = &row.expected;
+    let number = |x: f64| significant(x, 2);
+    let cell = |x: Option<f64>| x.map_or("lost".into(), number);
+    let parts = [
+        ("by the step alone, 13 p dt (median)", Some(expected.floor)),
+        ("by the sway before uplift", expected.stance),
+        ("by what a landing gives back", expected.rebound),
+    ];
+    let empty = String::new;
+    let part = |(name, value): (&str, Option<f64>)| {
+        Some(vec![format!("expected {name}"), number(value?), empty(), empty(), empty(), empty()])
+    };
+    let parts = parts.into_iter().filter_map(part);
+    let measured = |name: &str, errors: Option<ProgramErrors>| {
+        errors.map(|e| {
+            let percent = |x: Option<f64>| x.map_or("lost".into(), percent);
+            vec![
+                format!("measured on {} {name}", e.histories),
+                cell(e.history[0]),
+                cell(e.history[1]),
+                percent(e.peak[0]),
+                percent(e.peak[1]),
+                e.lost.to_string(),
+            ]
+        })
+    };
+    let measured = [
+        measured(motions, expected.synthetic),
+        measured("earthquake-like motions", expected.earthquakes),
+    ];
+    Table::new([
+        "error",
+        "history, NRMSE, median",
+        "90 %",
+        "largest displacement, median",
+        "90 %",
+        "lost",
+    ])
+    .with(parts.chain(measured.into_iter().flatten()))
+}
