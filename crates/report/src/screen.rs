@@ -344,7 +344,7 @@ fn next(run: &Run, written: &Written, crowding: Crowding, lines: &mut Vec<String
             });
             let fits = told.iter().position(|some| some.len() <= crowding.program);
             lines.append(&mut told[fits.unwrap_or(told.len() - 1)]);
-            let settings = program.settings(crowding.program > 1);
+            let settings = program.settings(!crowding.tight);
             if !settings.is_empty() {
                 at_most(if crowding.tight { 2 } else { 3 }, lines, "  set to  ", &settings);
             }
