@@ -16,7 +16,10 @@ use run_folder::{
     place::file_in,
     place::write_file,
 };
-use springs::parameters::{Parameters, elastic::ElasticParameters, program::ProgramRow};
+use springs::{
+    parameters::{Parameters, elastic::ElasticParameters, program::ProgramRow},
+    results::FiledFinding,
+};
 use strong_motion::Record;
 
 /// Options of `tune export`.
@@ -55,7 +58,10 @@ pub fn run(o: &ExportOptions) -> Result<(), CommandError> {
             let (parameters, record, line) = read(&o.parameters, &o.record)?;
             match stepping(o, parameters.program.as_ref()) {
                 Stepping::Events => (deck_of(&parameters, &record, o.format, o.accuracy)?, line),
-                stepping => told(stepped_deck(&parameters, &record, o.format, stepping)?, line),
+                stepping => {
+                    let until = predictable_to(o, &parameters.findings);
+                    told(stepped_deck(&parameters, &record, o.format, stepping, until)?, line)
+                }
             }
         }
     };
@@ -68,6 +74,13 @@ pub fn run(o: &ExportOptions) -> Result<(), CommandError> {
 fn stepping<U>(o: &ExportOptions, program: Option<&ProgramRow<U>>) -> Stepping {
     let csi = o.format.is_sap2000() && program.is_some_and(ProgramRow::is_csi);
     o.stepping.unwrap_or(if csi { Stepping::Even } else { Stepping::Events })
+}
+
+/// Up to when the run found that the motion can be predicted, if not to its end (s): of its own
+/// record, at its own scale.
+fn predictable_to(o: &ExportOptions, findings: &[FiledFinding]) -> Option<f64> {
+    let own = o.record.record.is_none() && o.record.scale.is_none();
+    report::predictable_to(findings).filter(|_| own)
 }
 
 /// The text of a deck, and what to say of it besides the record.
@@ -88,7 +101,8 @@ fn elastic(
     match (stepping(o, parameters.program.as_ref()), &parameters.program) {
         (Stepping::Events, _) => {}
         (Stepping::Even, Some(program)) => {
-            let deck = stepped_deck_of(&assembled, program, &record, o.format)?;
+            let until = predictable_to(o, &parameters.findings);
+            let deck = stepped_deck_of(&assembled, program, &record, o.format, until)?;
             return Ok(told(deck, excitation.line()));
         }
         (Stepping::Even, None) => return Err(ExportError::NoProgram.into()),

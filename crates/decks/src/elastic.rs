@@ -58,6 +58,8 @@ pub struct ElasticDeck<'a> {
     pub record: &'a Record,
     /// Samples of it that are followed, the one at t = 0 included.
     pub samples: usize,
+    /// Of these, so many that its history is compared on: as far as the motion can be predicted.
+    pub compared: usize,
     /// Node whose motion is checked, and its displacement (x, z) at every sample in our own history
     /// (m).
     pub top: (usize, &'a [[f64; 2]]),
@@ -132,12 +134,18 @@ impl ElasticDeck<'_> {
     /// Its largest displacement towards a side, x or, from where it settled, z (m).
     pub(super) fn peak(&self, k: usize, sign: f64) -> f64 {
         let from = if k == 1 { self.settled() } else { 0.0 };
-        self.top.1.iter().map(|at| sign * (at[k] - from)).fold(f64::NEG_INFINITY, f64::max) * sign
+        let compared = self.top.1.iter().take(self.compared);
+        compared.map(|at| sign * (at[k] - from)).fold(f64::NEG_INFINITY, f64::max) * sign
     }
 
     /// Steps per sample for a program that takes all its steps alike, 40 to a period of what lands.
     pub(super) fn even_steps(&self) -> usize {
         whole(self.record.dt / (TAU * self.landing() / STEPS_PER_PERIOD))
+    }
+
+    /// Time of the last sample compared (s).
+    pub(super) fn compared_s(&self) -> f64 {
+        self.compared.saturating_sub(1) as f64 * self.record.dt
     }
 
     fn fill(&self, language: &Language, template: &str) -> Result<String, ExportError> {
@@ -172,6 +180,8 @@ impl ElasticDeck<'_> {
             ("RISE", digits(rise)),
             ("STEPS", self.steps().to_string()),
             ("SAMPLES", self.samples.to_string()),
+            ("COMPARED", self.compared.to_string()),
+            ("COMPARED_S", self.compared_s().to_string()),
             ("DURATION", format!("{}", (self.samples.saturating_sub(1)) as f64 * self.record.dt)),
             ("TOLERANCE", digits(tolerance)),
             ("SETTLED", digits(self.settled())),

@@ -50,7 +50,7 @@ array set scale [list settled [expr {abs($want(settled))}]]
 foreach {name column start} [checked] {
     set most -1e300
     set least 1e300
-    foreach row $rows {
+    foreach row [lrange $rows 0 $compared-1] {
         set value [expr {[lindex $row $column] - $start}]
         set most [expr {max($most, $value)}]
         set least [expr {min($least, $value)}]
@@ -62,6 +62,9 @@ foreach {name column start} [checked] {
 set good 1
 puts [format "OpenSees, %g s: %s" [expr {($samples - 1) * $recordDt}] [steps::report]]
 if {$steps::refused > 0} { puts "  OpenSees' messages of failed convergence are those of the pairs repeated" }
+if {$compared < $samples} {
+    puts [format "  compared to %g s: beyond, the motion cannot be predicted" [expr {($compared - 1) * $recordDt}]]
+}
 foreach {key value} $expected {
     if {abs($found($key) - $value) > 0.01 * $scale($key)} { set good 0 }
     puts [format "  %-8s %12.4f mm, expected %12.4f mm" $key [expr {$found($key) * 1e3}] [expr {$value * 1e3}]]

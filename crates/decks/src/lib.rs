@@ -44,7 +44,7 @@ use springs::{
 };
 pub use step_count::deck_steps;
 pub use stepping::{
-    SteppedDeck, Stepping, corner_history, even_deck, stepped_deck, stepped_history,
+    SteppedDeck, Stepping, corner_history, even_deck, samples_to, stepped_deck, stepped_history,
 };
 use strong_motion::Record;
 
@@ -128,6 +128,8 @@ const FALLEN: f64 = 1.0;
 pub struct Expected {
     /// Number of samples followed, the one at t = 0 included.
     pub samples: usize,
+    /// Of these, so many that it is compared on: as far as the motion can be predicted.
+    pub compared: usize,
     /// Z of the centre of mass, standing settled (negative: the settlement) (m).
     pub settled: f64,
     /// Largest and least u (m).
@@ -150,13 +152,13 @@ impl Expected {
     /// The same of so many of its samples. It ends where the body has fallen over: another
     /// program's would fall through the ground next, a little sooner or later than ours.
     pub(crate) fn within(history: &History, width_sensitivity: f64, samples: usize) -> Self {
-        Self::of_motion(&history.motion, samples, history.initial_z, width_sensitivity)
+        Self::of_motion(&history.motion, [samples; 2], history.initial_z, width_sensitivity)
     }
 
-    /// The same of a motion from where it stands settled (m).
+    /// The same of a motion from where it stands settled (m): samples followed, and compared.
     pub(crate) fn of_motion(
         motion: &Motion,
-        samples: usize,
+        [samples, compared]: [usize; 2],
         settled: f64,
         width_sensitivity: f64,
     ) -> Self {
@@ -166,13 +168,15 @@ impl Expected {
             .position(|theta| theta.abs() >= FALLEN)
             .map_or(motion.len(), |i| i + 1);
         let samples = samples.min(fallen);
+        let compared = compared.min(samples);
         let range = |x: &[f64]| {
-            x[..samples]
+            x[..compared]
                 .iter()
                 .fold((0.0, 0.0), |(max, min): (f64, f64), &x| (max.max(x), min.min(x)))
         };
         Self {
             samples,
+            compared,
             settled,
             u: range(&motion.u),
             v: range(&motion.v),

@@ -1,9 +1,6 @@
 //! What every deck needs besides the parameters: stiff legs, steps, tolerances, each with its rule.
 
-use super::{
-    Expected, ExportError, beside::HousnerBeside, plain::NamedSprings, printable,
-    stepping::EvenSteps,
-};
+use super::{Expected, ExportError, plain::NamedSprings, printable, stepping::EvenSteps};
 use dynamics::spring::{Chain, Springs};
 use rocking::{
     members::Members,
@@ -96,8 +93,8 @@ pub(super) struct DeckModel<'a> {
     pub even_steps: usize,
     /// Settings of steps of one size, in place of those that follow touches.
     pub even: Option<EvenSteps>,
-    /// Housner's answer beside that of such steps.
-    pub beside: Option<HousnerBeside>,
+    /// Largest and least displacement by Housner's equation, where it is compared (m).
+    pub housner: Option<(f64, f64)>,
     pub record: &'a Record,
     pub expected: Expected,
     /// The record's name, harmless in comments.
@@ -155,7 +152,7 @@ impl<'a> DeckModel<'a> {
             rise: SMALL_MOTION * 2.0 * body.half_width * (body.half_width / body.height).atan(),
             even_steps: even_steps(parameters, record.dt),
             even: None,
-            beside: None,
+            housner: None,
             record,
             expected: *expected,
             record_name: printable(&record.name),
@@ -174,6 +171,11 @@ impl<'a> DeckModel<'a> {
     /// Time of the last sample followed (s).
     pub(crate) fn duration(&self) -> f64 {
         (self.expected.samples - 1) as f64 * self.record.dt
+    }
+
+    /// Time of the last sample compared (s).
+    pub(crate) fn compared_s(&self) -> f64 {
+        self.expected.compared.saturating_sub(1) as f64 * self.record.dt
     }
 
     pub(crate) fn inertia_note(&self) -> &'static str {

@@ -66,6 +66,8 @@ fn fill(language: &Language, template: &str, model: &DeckModel) -> Result<String
         ("RISE", digits(model.rise)),
         ("STEPS", A_PAIR.to_string()),
         ("SAMPLES", e.samples.to_string()),
+        ("COMPARED", e.compared.to_string()),
+        ("COMPARED_S", model.compared_s().to_string()),
         ("DURATION", model.duration().to_string()),
         ("SETTLED", digits(e.settled)),
         ("U_MAX", digits(e.u.0)),

@@ -27,7 +27,7 @@ use strong_motion::Record;
 
 use crate::{
     DeckFormat, Expected, ExportError,
-    beside::HousnerBeside,
+    beside::housner_range,
     export_model,
     model::{DeckModel, with_inertia},
 };
@@ -230,15 +230,17 @@ impl Stepped {
         record: &Record,
         format: DeckFormat,
         FixedStepHistory { motion, outcome, .. }: &FixedStepHistory,
+        until: Option<f64>,
     ) -> Result<SteppedDeck, ExportError> {
         let gives_up_s = match outcome {
             FixedStepOutcome::GaveUp(GaveUp { time, .. }) => Some(*time),
             _ => None,
         };
-        let model = DeckModel::new(&self.parameters, record, &self.expected(motion))?;
+        let compared = samples_to(until, record.dt, motion.len());
+        let model = DeckModel::new(&self.parameters, record, &self.expected(motion, compared))?;
         let beside = (format == DeckFormat::Sap2000Sheet)
-            .then(|| HousnerBeside::of(&self.given, &self.parameters, record, motion));
-        let model = DeckModel { even: Some(self.steps), beside: beside.flatten(), ..model };
+            .then(|| housner_range(&self.given, &self.parameters, record, compared));
+        let model = DeckModel { even: Some(self.steps), housner: beside.flatten(), ..model };
         let text = export_model(&model, format)?;
         Ok(SteppedDeck { text, gives_up_s })
     }
@@ -252,12 +254,12 @@ impl Stepped {
         FixedStepAnalysis { vertical: record.up(), ..analysis }.history()
     }
 
-    /// What a history is to be found to do.
-    fn expected(&self, motion: &Motion) -> Expected {
+    /// What a history is to be found to do, compared on so many samples.
+    fn expected(&self, motion: &Motion, compared: usize) -> Expected {
         let body = self.parameters.structure.body::<f64>();
         let chains = self.parameters.chains();
         let settled = -0.5 * body.mass * GRAVITY / chains.vertical.in_series();
-        Expected::of_motion(motion, motion.len(), settled, 0.0)
+        Expected::of_motion(motion, [motion.len(), compared], settled, 0.0)
     }
 }
 
@@ -294,7 +296,13 @@ impl SteppedDeck {
     }
 }
 
-/// The deck for a program with steps of one size.
+/// Samples up to a time (s), of so many: two at least, to be compared on.
+pub fn samples_to(until: Option<f64>, dt: f64, all: usize) -> usize {
+    until.map_or(all, |until| ((until / dt + 1e-6) as usize + 1).max(2).min(all))
+}
+
+/// The deck for a program with steps of one size. It compares its history up to when the motion can
+/// be predicted, `until` (s); all of it if there is no such time.
 ///
 /// # Errors
 /// Parameters without springs for such a program; members; an integrator that the program has not;
@@ -304,6 +312,7 @@ pub fn stepped_deck(
     record: &Record,
     format: DeckFormat,
     stepping: Stepping,
+    until: Option<f64>,
 ) -> Result<SteppedDeck, ExportError> {
     if stepping == Stepping::Events {
         return Ok(SteppedDeck {
@@ -313,7 +322,7 @@ pub fn stepped_deck(
     }
     let stepped = Stepped::for_format(parameters, format, stepping)?;
     let history = stepped.history(record);
-    stepped.deck(record, format, &history)
+    stepped.deck(record, format, &history, until)
 }
 
 /// The same with steps of one size throughout, of a body whose history is there
@@ -326,8 +335,9 @@ pub fn even_deck(
     record: &Record,
     format: DeckFormat,
     history: &FixedStepHistory,
+    until: Option<f64>,
 ) -> Result<SteppedDeck, ExportError> {
-    Stepped::for_format(parameters, format, Stepping::Even)?.deck(record, format, history)
+    Stepped::for_format(parameters, format, Stepping::Even)?.deck(record, format, history, until)
 }
 
 /// An elastic structure on its springs for a program with steps of one size, emulated through a

@@ -21,6 +21,7 @@ fn parameters() -> Parameters {
 /// Peaks that no run gives: the tests look for them in the texts.
 const EXPECTED: Expected = Expected {
     samples: 2001,
+    compared: 2001,
     settled: -0.00123,
     u: (0.4567, -0.3456),
     v: (0.0421, -0.0012),

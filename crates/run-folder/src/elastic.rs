@@ -11,7 +11,7 @@ use crate::{
     tables::{Instants, csv_row},
     texts::RunTexts,
 };
-use decks::{ACCURACY, DeckFormat, ElasticDeck, ExportError, corner_history};
+use decks::{ACCURACY, DeckFormat, ElasticDeck, ExportError, corner_history, samples_to};
 use dynamics::spring::{Chain, Springs};
 use figures::Figure;
 use frames::{
@@ -113,14 +113,15 @@ pub fn deck(
     history: &ElasticHistory,
     (format, accuracy): (DeckFormat, f64),
 ) -> Result<String, ExportError> {
-    deck_of(assembled, (springs, None), record, &history.q, (format, accuracy))
+    deck_of(assembled, (springs, None), record, (&history.q, None), (format, accuracy))
 }
 
+/// The same of any springs and history, which is compared up to a time (s) if one is given.
 fn deck_of(
     assembled: &Assembled,
     (springs, program): (&[Springs<Chain<f64>>], Option<&ProgramRow<CornerUnits>>),
     record: &Record,
-    history: &[Vec<f64>],
+    (history, until): (&[Vec<f64>], Option<f64>),
     (format, accuracy): (DeckFormat, f64),
 ) -> Result<String, ExportError> {
     let (frame, top) =
@@ -137,6 +138,7 @@ fn deck_of(
         springs,
         record,
         samples: motion.len(),
+        compared: samples_to(until, record.dt, motion.len()),
         top: (top, &motion),
         alpha: assembled.structure.body().alpha(),
         frequency_hz: assembled.structure.fixed_base_frequency_hz(),

@@ -8,6 +8,7 @@ use report::{
     Run,
     markdown::markdown,
     page::{Drawing, page},
+    predictable_to,
     rigid::RigidRun,
     summary,
 };
@@ -175,8 +176,9 @@ fn run_decks(parameters: &Parameters, rigid: &RigidRun) -> Result<RunTexts, Fold
         own.as_ref().unwrap_or_else(|| both.with.as_ref().map_or(&both.fem, |with| &with.history));
     let width_sensitivity = width_sensitivity(&history.motion, &parameters, record);
     let expected = Expected::new(history, width_sensitivity);
+    let until = predictable_to(&rigid.parameters.findings);
     let stepped = |format: DeckFormat| match of_steps {
-        Some(history) => decks::even_deck(&parameters, record, format, history),
+        Some(history) => decks::even_deck(&parameters, record, format, history, until),
         None => Err(ExportError::NoProgram),
     };
     // SAP2000 steps alike: the springs for that, if there are some

@@ -3,7 +3,6 @@
 
 use crate::{
     OutputSteps,
-    beside::HousnerBeside,
     model::{DeckModel, digits},
     stepping::EvenSteps,
 };
@@ -102,11 +101,13 @@ pub(crate) struct SapModel<'a> {
     pub record: &'a Record,
     /// Samples followed, and steps per sample.
     pub samples: usize,
+    /// Up to when it can be predicted, if not to its end: peaks are to then (s).
+    pub until: Option<f64>,
     pub even_steps: usize,
     /// Settings of the program whose steps the springs are for.
     pub even: Option<EvenSteps>,
-    /// Housner's answer for the same joint.
-    pub beside: Option<HousnerBeside>,
+    /// Largest and least U1 by Housner's equation, up to then (m).
+    pub housner: Option<(f64, f64)>,
 }
 
 impl<'a> SapModel<'a> {
@@ -139,9 +140,10 @@ impl<'a> SapModel<'a> {
             link: LINK_LENGTH * h,
             record: model.record,
             samples: e.samples,
+            until: (e.compared < e.samples).then(|| model.compared_s()),
             even_steps: model.even_steps,
             even: model.even,
-            beside: model.beside,
+            housner: model.housner,
         }
     }
 
@@ -170,9 +172,12 @@ impl<'a> SapModel<'a> {
             Some(_) => "by an emulation of these steps",
             None => "within 1 % of our own history",
         };
+        let until = self.until.map_or(String::new(), |until| {
+            format!(", to {until} s (beyond, the motion cannot be predicted)")
+        });
         format!(
-            "$ Expected at joint {}, m, {by}: settled U3 {}; U1 {} to {}; U3 above settled {} to \
-                {}\n",
+            "$ Expected at joint {}, m, {by}{until}: settled U3 {}; U1 {} to {}; U3 above settled \
+                {} to {}\n",
             self.watched,
             digits(self.settled),
             digits(u.1),

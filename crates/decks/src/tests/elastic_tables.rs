@@ -43,6 +43,7 @@ fn deck(model: &Assembled, record: &Record) -> Result<String, ExportError> {
         springs: &springs,
         record,
         samples: 3,
+        compared: 3,
         top: (top, &motion),
         alpha: 0.1,
         frequency_hz: 2.0,

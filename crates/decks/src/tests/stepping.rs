@@ -25,7 +25,9 @@ fn for_program(name: ProgramName, step: f64) -> Parameters {
 }
 
 fn text(parameters: &Parameters, format: DeckFormat, stepping: Stepping) -> String {
-    stepped_deck(parameters, &Record::el_centro().truncated(8.0), format, stepping).unwrap().text
+    stepped_deck(parameters, &Record::el_centro().truncated(8.0), format, stepping, None)
+        .unwrap()
+        .text
 }
 
 #[test]
@@ -59,8 +61,38 @@ fn decks_of_even_steps_hold_the_programs_springs_and_settings() {
         );
         // steps that follow touches are those of `deck`
         let record = Record::el_centro().truncated(8.0);
-        let events = stepped_deck(&parameters, &record, format, Stepping::Events).unwrap().text;
+        let events =
+            stepped_deck(&parameters, &record, format, Stepping::Events, None).unwrap().text;
         assert_eq!(events, super::super::deck(&parameters, &record, format).unwrap());
+    }
+}
+
+/// A deck follows the whole record, but what it compares ends where the motion can no longer be
+/// predicted: largest and least u are those of the history up to then.
+#[test]
+fn decks_compare_up_to_when_the_motion_can_be_predicted() {
+    let parameters = for_program(ProgramName::OpenSees, 0.002);
+    let record = Record::el_centro().truncated(8.0);
+    let u = stepped_history(&parameters, &record).unwrap().motion.u;
+    let most = |u: &[f64]| u.iter().fold(0.0_f64, |most, u| most.max(*u));
+    assert!(most(&u[..301]) < most(&u), "the largest u comes later");
+    for (format, followed, compared) in [
+        (DeckFormat::OpenSeesPy, "SAMPLES = 801 ", "COMPARED = 301 "),
+        (DeckFormat::OpenSeesTcl, "set samples        801 ", "set compared       301 "),
+    ] {
+        let deck =
+            |until| stepped_deck(&parameters, &record, format, Stepping::Even, until).unwrap().text;
+        let [part, all] = [deck(Some(3.0)), deck(None)];
+        assert!(part.contains(followed) && part.contains(compared), "{format:?}");
+        assert!(all.contains(&compared.replace("301", "801")), "{format:?}");
+        assert!(numbers_in(&part).contains(&most(&u[..301])), "{format:?}");
+        assert!(numbers_in(&all).contains(&most(&u)), "{format:?}");
+    }
+    let csi = for_program(ProgramName::Sap2000, 0.002);
+    for format in [DeckFormat::Sap2000, DeckFormat::Sap2000Sheet] {
+        let deck = |until| stepped_deck(&csi, &record, format, Stepping::Even, until).unwrap().text;
+        assert!(deck(Some(3.0)).contains("to 3 s (beyond, the motion cannot be predicted)"));
+        assert!(!deck(None).contains("cannot be predicted"), "{format:?}");
     }
 }
 
@@ -163,7 +195,7 @@ fn the_sheet_to_type_from_has_the_model_of_the_tables() {
 fn what_has_no_springs_or_no_integrator_for_a_program_is_refused() {
     let record = Record::el_centro().truncated(1.0);
     let refused = |parameters: &Parameters, format, stepping| {
-        stepped_deck(parameters, &record, format, stepping).unwrap_err().to_string()
+        stepped_deck(parameters, &record, format, stepping, None).unwrap_err().to_string()
     };
     let even = for_program(ProgramName::OpenSees, 0.002);
     assert!(

@@ -3,6 +3,7 @@
 use super::{ElasticRun, deck_of};
 use decks::{ACCURACY, DeckFormat, ExportError, SteppedDeck, corner_history};
 use frames::assembled::Assembled;
+use report::predictable_to;
 use springs::parameters::program::{CornerUnits, ProgramOnRecord, ProgramRow};
 use strong_motion::Record;
 
@@ -10,7 +11,8 @@ use strong_motion::Record;
 /// (s).
 pub(super) type CornerHistory = (Vec<Vec<f64>>, Option<f64>);
 
-/// The deck for a program with steps of one size, on its springs.
+/// The deck for a program with steps of one size, on its springs. It compares its history up to
+/// when the motion can be predicted, `until` (s); all of it if there is no such time.
 ///
 /// # Errors
 /// As of a deck whose steps follow touches; an integrator that the format has not.
@@ -19,20 +21,21 @@ pub fn stepped_deck(
     program: &ProgramRow<CornerUnits>,
     record: &Record,
     format: DeckFormat,
+    until: Option<f64>,
 ) -> Result<SteppedDeck, ExportError> {
     let history = corner_history(&assembled.frame, program, record)?;
-    stepped_deck_of(assembled, program, record, format, &history)
+    stepped_deck_of((assembled, program), record, format, &history, until)
 }
 
 fn stepped_deck_of(
-    assembled: &Assembled,
-    program: &ProgramRow<CornerUnits>,
+    (assembled, program): (&Assembled, &ProgramRow<CornerUnits>),
     record: &Record,
     format: DeckFormat,
     (history, gives_up_s): &CornerHistory,
+    until: Option<f64>,
 ) -> Result<SteppedDeck, ExportError> {
     let springs = (&program.units.chains()[..], Some(program));
-    let text = deck_of(assembled, springs, record, history, (format, ACCURACY))?;
+    let text = deck_of(assembled, springs, record, (history, until), (format, ACCURACY))?;
     Ok(SteppedDeck { text, gives_up_s: *gives_up_s })
 }
 
@@ -58,9 +61,13 @@ impl ElasticRun {
         row: &ProgramRow<CornerUnits>,
         format: DeckFormat,
     ) -> Result<SteppedDeck, ExportError> {
+        let until = predictable_to(&self.parameters.findings);
         match &self.program_history {
-            Some(history) => stepped_deck_of(&self.assembled, row, &self.record, format, history),
-            None => stepped_deck(&self.assembled, row, &self.record, format),
+            Some(history) => {
+                let model = (&self.assembled, row);
+                stepped_deck_of(model, &self.record, format, history, until)
+            }
+            None => stepped_deck(&self.assembled, row, &self.record, format, until),
         }
     }
 }

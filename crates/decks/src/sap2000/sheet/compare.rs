@@ -15,31 +15,20 @@ fn mm(x: f64) -> String {
 /// What the joint that is watched does.
 pub(super) fn expected(parts: &SapModel) -> String {
     let [u, v] = parts.peaks;
+    let until = parts.until.map_or(String::new(), |until| {
+        format!(", to {} s (beyond, the motion cannot be predicted)", significant(until, 4))
+    });
     let mut text = format!(
-        "To compare, joint {}, {}: after GRAVITY U3 = {}. In QUAKE\n",
+        "To compare, joint {}, {}: after GRAVITY U3 = {}. In QUAKE{until}:\n",
         parts.watched,
         parts.watched_is,
         mm(parts.settled)
     );
-    let whole = format!("{}, U3 at most {} above that", range(u), mm(v.0));
-    match parts.beside {
-        Some(beside) => {
-            let steps = match beside.until_s {
-                // beyond that they are one motion of many
-                Some(until) => {
-                    let until = significant(until, 4);
-                    text += &format!("   up to {until} s, where the motion can be predicted:\n");
-                    format!("{}\n   to the end, these steps: {whole}", range(beside.steps))
-                }
-                None => whole,
-            };
-            let housner = range(beside.housner);
-            text += &format!(
-                "   Housner:                 {housner}\n   these steps (emulated):  {steps}\n"
-            );
-        }
-        None => text += &format!("   these steps (emulated):  {whole}\n"),
+    if let Some(housner) = parts.housner {
+        text += &format!("   Housner:                 {}\n", range(housner));
     }
+    text +=
+        &format!("   these steps (emulated):  {}, U3 at most {} above that\n", range(u), mm(v.0));
     text + "   The screen and report.html of the run have the answer without springs, up to when a \
             motion can be\n   predicted, and by how much such steps err.\n"
 }
