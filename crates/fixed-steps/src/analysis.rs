@@ -346,7 +346,9 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
         work: &mut FixedStepWork,
     ) -> Option<(f64, bool)> {
         let StepSettings { integrator, step: whole, iteration, .. } = &self.settings;
-        let (model, whole, events) = (self.model, *whole, self.settings.events?);
+        // nothing in a browser asks for them, and the page is to stay small
+        let events = self.settings.events.filter(|_| cfg!(not(target_family = "wasm")))?;
+        let (model, whole) = (self.model, *whole);
         let search = EventSearch { model, events, iteration, integrator, whole };
         let ground = |after: f64| self.ground(begin + after);
         match search.first(size, motion, feet, iterates, ground) {
