@@ -52,7 +52,7 @@ LANDING = @LANDING@            # 1/Omega_n of the vertical k1, s
 RISE = @RISE@               # of a foot, m, from which on its motion counts: a hundredth of where the body topples
 STEPS_PER_SAMPLE = @STEPS@     # at least; more change nothing
 SAMPLES = @SAMPLES@            # of the record that are followed: @DURATION@ s
-COMPARED = @COMPARED@          # of these that EXPECTED is of, to @COMPARED_S@ s; fewer where a motion cannot be predicted
+COMPARED = @COMPARED@          # of these that EXPECTED is of, to @COMPARED_S@ s; fewer if not all can be predicted
 TOLERANCE = @TOLERANCE@        # of Newton's displacements, m
 
 # What `tune simulate` found for the same springs and record, m: the check at the end.

@@ -38,7 +38,7 @@ set landing  @LANDING@ ;# 1/Omega_n of the vertical k1, s
 set rise     @RISE@ ;# of a foot, m, from which on its motion counts: a hundredth of where the body topples
 set stepsPerSample @STEPS@ ;# at least; more change nothing
 set samples        @SAMPLES@ ;# of the record that are followed: @DURATION@ s
-set compared       @COMPARED@ ;# of these that `expected` is of, to @COMPARED_S@ s; fewer where a motion cannot be predicted
+set compared       @COMPARED@ ;# of these that `expected` is of, to @COMPARED_S@ s; fewer if not all can be predicted
 set tolerance      @TOLERANCE@ ;# of Newton's displacements, m
 set top            3 ;# node of the mass
 

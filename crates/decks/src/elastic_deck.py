@@ -59,7 +59,7 @@ LANDING = @LANDING@            # s: sqrt(mass that lands / k1), what a landing t
 RISE = @RISE@                  # of a corner, m, from which on its motion counts: a hundredth of where the structure topples
 STEPS_PER_SAMPLE = @STEPS@     # at least
 SAMPLES = @SAMPLES@            # of the record that are followed: @DURATION@ s
-COMPARED = @COMPARED@          # of these that EXPECTED is of, to @COMPARED_S@ s; fewer where a motion cannot be predicted
+COMPARED = @COMPARED@          # of these that EXPECTED is of, to @COMPARED_S@ s; fewer if not all can be predicted
 TOLERANCE = @TOLERANCE@        # of Newton's displacements, m
 
 # What our own finite elements found for the same springs and record, m: the check at the end.

@@ -45,7 +45,7 @@ set landing   @LANDING@ ;# s: sqrt(mass that lands / k1), what a landing takes
 set rise      @RISE@ ;# of a corner, m, from which on its motion counts: a hundredth of where the structure topples
 set stepsPerSample @STEPS@ ;# at least
 set samples   @SAMPLES@ ;# of the record that are followed: @DURATION@ s
-set compared  @COMPARED@ ;# of these that `expected` is of, to @COMPARED_S@ s; fewer where a motion cannot be predicted
+set compared  @COMPARED@ ;# of these that `expected` is of, to @COMPARED_S@ s; fewer if not all can be predicted
 set tolerance @TOLERANCE@ ;# of Newton's displacements, m
 
 # What our own finite elements found for the same springs and record, m: the check at the end.
