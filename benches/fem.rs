@@ -49,7 +49,7 @@ fn lanes(c: &mut Criterion) {
     let threads = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     for bench in [BenchCase::arr(), BenchCase::plain(160.0), BenchCase::plain(10_240.0)] {
         let control = Control { tolerance: 1e-4, long_steps: true, ..Control::default() };
-        let cases: Vec<Analysis<f64>> =
+        let cases: Vec<Analysis> =
             (0..64).map(|i| bench.case(0.8 + f64::from(i) / 128.0, control)).collect();
         ratio(&bench, &cases, &threads);
         group.throughput(Throughput::Elements(64));
@@ -73,13 +73,13 @@ const ROUNDS: usize = 15;
 
 /// Print what a history costs one by one, with steps that end at every sample and with those over
 /// several, and side by side; and the ratios: medians over the rounds.
-fn ratio(bench: &BenchCase, cases: &[Analysis<f64>], threads: &rayon::ThreadPool) {
+fn ratio(bench: &BenchCase, cases: &[Analysis], threads: &rayon::ThreadPool) {
     let seconds = |work: &dyn Fn() -> f64| {
         let began = Instant::now();
         black_box(work());
         began.elapsed().as_secs_f64() / cases.len() as f64
     };
-    let every = |case: &Analysis<f64>| {
+    let every = |case: &Analysis| {
         peak(&Analysis { control: Control { long_steps: false, ..case.control }, ..*case })
     };
     let samples = || cases.iter().map(every).sum();
@@ -114,14 +114,14 @@ fn ratio(bench: &BenchCase, cases: &[Analysis<f64>], threads: &rayon::ThreadPool
 /// Largest rotation at a sample [rad].
 struct Peak(f64);
 
-impl Observer<f64> for Peak {
-    fn sample(&mut self, _: usize, view: &View<f64>) -> ControlFlow<()> {
+impl Observer for Peak {
+    fn sample(&mut self, _: usize, view: &View) -> ControlFlow<()> {
         self.0 = self.0.max(view.theta().abs());
         ControlFlow::Continue(())
     }
 }
 
-fn peak(case: &Analysis<f64>) -> f64 {
+fn peak(case: &Analysis) -> f64 {
     let mut peak = Peak(0.0);
     case.observe(&mut peak);
     peak.0

@@ -70,7 +70,7 @@ impl BenchCase {
     }
 
     /// The record at a scale.
-    pub fn case(&self, scale: f64, control: Control) -> Analysis<'_, f64> {
+    pub fn case(&self, scale: f64, control: Control) -> Analysis<'_> {
         let body = structure().body::<f64>();
         Analysis {
             body,

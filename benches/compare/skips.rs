@@ -66,8 +66,8 @@ fn rest(what: &'static str, bench: &BenchCase, rounds: usize) -> Skip {
 /// Watches like another observer, but never stops the run.
 struct NonStopping<'a>(ComparisonObserver<'a>);
 
-impl Observer<f64> for NonStopping<'_> {
-    fn sample(&mut self, index: usize, view: &View<f64>) -> ControlFlow<()> {
+impl Observer for NonStopping<'_> {
+    fn sample(&mut self, index: usize, view: &View) -> ControlFlow<()> {
         let _ = self.0.sample(index, view);
         ControlFlow::Continue(())
     }
@@ -198,7 +198,7 @@ fn history(rounds: usize) -> Skip {
     };
     let watched = || {
         let mut last = 0.0;
-        case.observe(&mut |_: usize, view: &View<f64>| {
+        case.observe(&mut |_: usize, view: &View| {
             last = view.x();
             ControlFlow::Continue(())
         });

@@ -19,7 +19,7 @@ use crate::{
 /// k1, k2 in N/m, m2 in kg, c in N s/m.
 #[pyclass(frozen, eq, from_py_object, module = "groundspring")]
 #[derive(Clone, Copy, PartialEq)]
-pub struct Chain(pub spring::Chain<f64>);
+pub struct Chain(pub spring::Chain);
 
 #[pymethods]
 impl Chain {
@@ -102,7 +102,7 @@ pub struct Springs {
 }
 
 impl Springs {
-    pub fn chains(&self) -> spring::Springs<spring::Chain<f64>> {
+    pub fn chains(&self) -> spring::Springs<spring::Chain> {
         spring::Springs { vertical: self.vertical.0, horizontal: self.horizontal.0 }
     }
 
@@ -176,7 +176,7 @@ impl Springs {
     }
 
     fn __hash__(&self) -> u64 {
-        let unit = |c: &spring::Chain<f64>| [c.k1, c.k2, c.m2, c.c];
+        let unit = |c: &spring::Chain| [c.k1, c.k2, c.m2, c.c];
         hashed(
             "",
             [unit(&self.vertical.0), unit(&self.horizontal.0), [self.mass; 4]]

@@ -254,7 +254,7 @@ fn a_block_of_2_by_0_5_m_on_springs_of_the_papers_procedure_agrees() {
 /// Largest NRMSE with dampers or a tendon.
 const AGREEMENT_WITH_MEMBERS: f64 = 0.01;
 
-fn agrees_with(members: Members<f64>, duration: f64) {
+fn agrees_with(members: Members, duration: f64) {
     let chain = Design::from_kc(0.5, 0.2, 0.92, 40.0);
     let springs = Springs { vertical: chain, horizontal: chain };
     let parameters = Parameters::new(Structure::paper(), &springs).with_members(members);

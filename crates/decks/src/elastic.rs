@@ -53,7 +53,7 @@ pub struct ElasticDeck<'a> {
     /// The same, assembled.
     pub frame: &'a Frame,
     /// Under every corner.
-    pub springs: &'a [Springs<Chain<f64>>],
+    pub springs: &'a [Springs<Chain>],
     /// The motion.
     pub record: &'a Record,
     /// Samples of it that are followed, the one at t = 0 included.
@@ -256,7 +256,7 @@ impl ElasticDeck<'_> {
     }
 
     fn corners(&self, language: &Language) -> impl Iterator<Item = Vec<String>> {
-        let unit = |c: &Chain<f64>| language.list(&[c.k1, c.k2, c.c, c.m2].map(digits));
+        let unit = |c: &Chain| language.list(&[c.k1, c.k2, c.c, c.m2].map(digits));
         self.layout.corners.iter().zip(self.springs).map(move |(corner, springs)| {
             let units = [unit(&springs.vertical), unit(&springs.horizontal)];
             [[corner.node.to_string(), self.arm(language, corner)], units].concat()
@@ -292,7 +292,7 @@ impl ElasticDeck<'_> {
 
     /// What a landing takes: 1/omega of the mass that lands on the vertical k1 (s).
     fn landing(&self) -> f64 {
-        let of = |(i, springs): (usize, &Springs<Chain<f64>>)| {
+        let of = |(i, springs): (usize, &Springs<Chain>)| {
             (self.frame.effective_mass(i)[1] / springs.vertical.k1).sqrt()
         };
         self.springs.iter().enumerate().map(of).fold(f64::INFINITY, f64::min)

@@ -77,8 +77,8 @@ pub(super) struct DeckModel<'a> {
     pub structure: Structure,
     /// I_cg as written (kg m2).
     pub inertia: f64,
-    pub springs: Springs<Chain<f64>>,
-    pub members: Members<f64>,
+    pub springs: Springs<Chain>,
+    pub members: Members,
     /// EA/L and 3EI/L^3 of the legs that stand for the rigid body (N/m).
     pub leg: f64,
     /// Newton's displacement tolerance (m).

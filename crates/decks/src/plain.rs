@@ -7,7 +7,7 @@ use dynamics::spring::{Chain, Springs};
 use files::message::quantity;
 
 /// A foot or corner by name, and the units under it.
-pub(super) type NamedSprings = (String, Springs<Chain<f64>>);
+pub(super) type NamedSprings = (String, Springs<Chain>);
 
 /// Place, direction and numbers of every unit.
 fn rows(places: &[NamedSprings]) -> impl Iterator<Item = [String; 6]> {

@@ -65,26 +65,26 @@ use crate::{
     effort::Effort,
     spring::{Chain, Springs},
 };
-use rocking::{members::Members, scalar::Scalar, structure::Body};
+use rocking::{members::Members, structure::Body};
 
 /// How the body stands at t = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Start<S> {
+pub enum Start {
     /// At rest on both feet, settled under its weight.
     Settled,
     /// At rest on one settled foot, leaning by theta (rad): free rocking.
-    Leaning(S),
+    Leaning(f64),
 }
 
 /// What a run is made of.
 #[derive(Clone, Copy, Debug)]
-pub struct Analysis<'a, S> {
+pub struct Analysis<'a> {
     /// What rocks.
-    pub body: Body<S>,
+    pub body: Body<f64>,
     /// Under each foot.
-    pub springs: Springs<Chain<S>>,
+    pub springs: Springs<Chain>,
     /// How it begins.
-    pub start: Start<S>,
+    pub start: Start,
     /// Sampling interval (s).
     pub dt: f64,
     /// Ground acceleration at t = i dt (m/s2), linear in between.
@@ -93,56 +93,50 @@ pub struct Analysis<'a, S> {
     /// last sample: empty if there is none.
     pub vertical: &'a [f64],
     /// Factor on the ground acceleration, both components.
-    pub scale: S,
+    pub scale: f64,
     /// How exactly it is followed.
     pub control: Control,
 }
 
 /// How a run ended, what it cost, and its energy account.
 #[derive(Clone, Copy, Debug)]
-pub struct Finish<S> {
+pub struct Finish {
     /// How it ended.
     pub outcome: HistoryOutcome,
     /// What it cost.
     pub work: Work,
     /// Energy account at the end.
-    pub energy: Energy<S>,
+    pub energy: Energy,
     /// Largest energy of the history, the scale of its residual (J).
     pub energy_scale: f64,
 }
 
-impl<S> Finish<S> {
-    /// Count what it cost: a step tried is a unit, one of dual numbers as many as it has parts.
+impl Finish {
+    /// Count what it cost: a step tried is a unit.
     pub fn spend(&self, effort: &Effort) {
-        let parts = size_of::<S>() / size_of::<f64>();
-        let tried = (self.work.steps + self.work.rejected + self.work.located) * parts;
-        effort.spend(tried as u64);
+        effort.spend((self.work.steps + self.work.rejected + self.work.located) as u64);
     }
 }
 
-impl<S: Scalar> Analysis<'_, S> {
+impl Analysis<'_> {
     /// Run the case, showing every sample and event to `observer`.
-    pub fn observe(&self, observer: &mut impl Observer<S>) -> Finish<S> {
+    pub fn observe(&self, observer: &mut dyn Observer) -> Finish {
         self.follow(&self.model(), observer)
     }
 
     /// The same with dampers, a tendon or friction.
-    pub(crate) fn observe_with(
-        &self,
-        members: &Members<S>,
-        observer: &mut impl Observer<S>,
-    ) -> Finish<S> {
+    pub(crate) fn observe_with(&self, members: &Members, observer: &mut dyn Observer) -> Finish {
         self.follow(&model::Model::with_members(&self.body, &self.springs, members), observer)
     }
 
-    fn follow(&self, model: &model::Model<S>, observer: &mut impl Observer<S>) -> Finish<S> {
+    fn follow(&self, model: &model::Model, observer: &mut dyn Observer) -> Finish {
         let model = &model::Model { skip_open: self.control.skip_open, ..*model };
         let mut run = self.run(model);
         let outcome = run.follow(self.ground(), observer);
         run.finish(outcome)
     }
 
-    fn run<'a>(&self, model: &'a model::Model<S>) -> run::TimeLoop<'a, S> {
+    fn run<'a>(&self, model: &'a model::Model) -> run::TimeLoop<'a> {
         let start = match self.start {
             Start::Settled => model.settled(),
             Start::Leaning(theta) => model.leaning(theta),
@@ -150,20 +144,20 @@ impl<S: Scalar> Analysis<'_, S> {
         run::TimeLoop::new(model, start, self.control)
     }
 
-    fn model(&self) -> model::Model<S> {
+    fn model(&self) -> model::Model {
         model::Model {
             skip_open: self.control.skip_open,
             ..model::Model::new(&self.body, &self.springs)
         }
     }
 
-    fn ground(&self) -> run::GroundMotion<'_, S> {
+    fn ground(&self) -> run::GroundMotion<'_> {
         let &Self { dt, accel, vertical, scale, .. } = self;
         run::GroundMotion { dt, accel, vertical, scale }
     }
 }
 
-impl Analysis<'_, f64> {
+impl Analysis<'_> {
     /// Run the case and keep its history.
     pub fn simulate(&self) -> History {
         let mut recorder = Recorder::new(self.accel.len());
@@ -172,7 +166,7 @@ impl Analysis<'_, f64> {
     }
 
     /// The same with dampers, a tendon or friction, or none of them; and the forces in them.
-    pub fn simulate_with(&self, members: &Members<f64>) -> (History, Demands) {
+    pub fn simulate_with(&self, members: &Members) -> (History, Demands) {
         let mut both = HistoryAndForces {
             recorder: Recorder::new(self.accel.len()),
             demands: Demands::default(),
@@ -188,27 +182,27 @@ struct HistoryAndForces {
     demands: Demands,
 }
 
-impl Observer<f64> for HistoryAndForces {
-    fn sample(&mut self, index: usize, view: &View<f64>) -> ControlFlow<()> {
+impl Observer for HistoryAndForces {
+    fn sample(&mut self, index: usize, view: &View) -> ControlFlow<()> {
         let _ = self.demands.sample(index, view);
         self.recorder.sample(index, view)
     }
 
-    fn step(&mut self, view: &View<f64>) {
+    fn step(&mut self, view: &View) {
         self.demands.step(view);
         self.recorder.step(view);
     }
 
-    fn event(&mut self, foot: usize, change: Change, view: &View<f64>) {
+    fn event(&mut self, foot: usize, change: Change, view: &View) {
         self.recorder.event(foot, change, view);
     }
 }
 
 /// Energy of the body at rest on one settled foot, not leaning: what a rocking body's energy counts
 /// from (J).
-pub fn energy_on_one_foot<S: Scalar>(body: &Body<S>, springs: &Springs<Chain<S>>) -> S {
+pub fn energy_on_one_foot(body: &Body<f64>, springs: &Springs<Chain>) -> f64 {
     let model = model::Model::new(body, springs);
-    let (state, feet) = model.on_one_foot(S::zero());
+    let (state, feet) = model.on_one_foot(0.0);
     model.energy(&state, &feet)
 }
 

@@ -45,10 +45,12 @@ impl<S: Scalar> Design<S> {
     pub fn c(&self) -> S {
         self.mu * self.xi * real::<S>(2.0)
     }
+}
 
+impl Design<f64> {
     /// The chain for a mass m1 (kg).
-    pub fn chain(&self, m1: S) -> Chain<S> {
-        let omega_n = self.omega_n_hz * real::<S>(TAU);
+    pub fn chain(&self, m1: f64) -> Chain {
+        let omega_n = self.omega_n_hz * TAU;
         let k1 = m1 * omega_n * omega_n;
         Chain { k1, k2: self.k() * k1, m2: self.mu * m1, c: self.c() * m1 * omega_n }
     }
@@ -56,32 +58,32 @@ impl<S: Scalar> Design<S> {
 
 /// One chain with units: foot - gap k1 - m2 - (k2 parallel c) - ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Chain<S> {
+pub struct Chain {
     /// Gap spring k1 (N/m).
-    pub k1: S,
+    pub k1: f64,
     /// Ground spring k2 (N/m).
-    pub k2: S,
+    pub k2: f64,
     /// Absorber mass m2 (kg).
-    pub m2: S,
+    pub m2: f64,
     /// Dashpot c (N s/m).
-    pub c: S,
+    pub c: f64,
 }
 
-impl<S: Scalar> Chain<S> {
+impl Chain {
     /// Stiffness of both springs, one after the other (N/m).
-    pub fn in_series(&self) -> S {
+    pub fn in_series(&self) -> f64 {
         self.k1 * self.k2 / (self.k1 + self.k2)
     }
 
     /// The dimensionless design of this chain under a mass m1 (kg).
-    pub fn design(&self, m1: S) -> Design<S> {
+    pub fn design(&self, m1: f64) -> Design<f64> {
         let omega_n = (self.k1 / m1).sqrt();
         let mu = self.m2 / m1;
         Design {
             mu,
             f: (self.k2 / self.m2).sqrt() / omega_n,
-            xi: self.c / (self.m2 * omega_n * real::<S>(2.0)),
-            omega_n_hz: omega_n / real::<S>(TAU),
+            xi: self.c / (self.m2 * omega_n * 2.0),
+            omega_n_hz: omega_n / TAU,
         }
     }
 }
@@ -95,17 +97,17 @@ pub struct Springs<T> {
     pub horizontal: T,
 }
 
-impl<S: Scalar> Springs<Design<S>> {
+impl Springs<Design<f64>> {
     /// Both chains for a mass m1 (kg).
-    pub fn chains(&self, m1: S) -> Springs<Chain<S>> {
+    pub fn chains(&self, m1: f64) -> Springs<Chain> {
         Springs { vertical: self.vertical.chain(m1), horizontal: self.horizontal.chain(m1) }
     }
 
     /// Settlement of the body standing on both feet, each carrying m1 g/2 on k1 and k2 in series
     /// (m).
-    pub fn settlement(&self, m1: S) -> S {
+    pub fn settlement(&self, m1: f64) -> f64 {
         let chain = self.vertical.chain(m1);
-        m1 * real::<S>(0.5 * rocking::scalar::GRAVITY) * (chain.k1.recip() + chain.k2.recip())
+        m1 * (0.5 * rocking::scalar::GRAVITY) * (chain.k1.recip() + chain.k2.recip())
     }
 }
 
@@ -148,7 +150,7 @@ impl ChainRow {
     }
 
     /// The chain with units; k1, k2, m2 and c rule, the dimensionless columns are for reading.
-    pub fn chain(&self) -> Chain<f64> {
+    pub fn chain(&self) -> Chain {
         Chain { k1: self.k1_n_per_m, k2: self.k2_n_per_m, m2: self.m2_kg, c: self.c_ns_per_m }
     }
 }

@@ -98,7 +98,7 @@ fn answer(asked: &Asked) -> Result<Value, Box<dyn Error>> {
                 None => FixedStepSprings::of(body, *step, integrator)?,
             };
             let Springs { vertical, horizontal } = springs.chains();
-            let unit = |c: Chain<f64>| [c.k1, c.k2, c.m2, c.c];
+            let unit = |c: Chain| [c.k1, c.k2, c.m2, c.c];
             let ConvergenceTest::Increment(tolerance) = springs.iteration().test else {
                 return Err("no test".into());
             };
@@ -139,7 +139,7 @@ fn answer(asked: &Asked) -> Result<Value, Box<dyn Error>> {
     }
 }
 
-fn units(asked: &Asked) -> Result<Springs<Chain<f64>>, Box<dyn Error>> {
+fn units(asked: &Asked) -> Result<Springs<Chain>, Box<dyn Error>> {
     let chain = |[k1, k2, m2, c]: [f64; 4]| Chain { k1, k2, m2, c };
     let (vertical, horizontal) =
         asked.vertical.zip(asked.horizontal).ok_or("give vertical and horizontal units")?;

@@ -56,7 +56,7 @@ impl FixedFoot {
     /// Decide whether it is closed, and holds, in a trial: its gap's compression d and its distance
     /// across e (m).
     #[inline(always)]
-    pub fn meet(&mut self, unit: &Springs<Chain<f64>>, d: f64, e: f64) {
+    pub fn meet(&mut self, unit: &Springs<Chain>, d: f64, e: f64) {
         self.closed = if self.held { self.was } else { d >= 0.0 };
         if !self.closed {
             self.holds = false;
@@ -76,7 +76,7 @@ impl FixedFoot {
 
     /// Force of the ground on it (H, N), as it was met (N).
     #[inline(always)]
-    pub fn force(&self, unit: &Springs<Chain<f64>>, d: f64, e: f64) -> [f64; 2] {
+    pub fn force(&self, unit: &Springs<Chain>, d: f64, e: f64) -> [f64; 2] {
         if !self.closed {
             return [0.0; 2];
         }
@@ -152,11 +152,7 @@ pub struct CondensedUnit {
 impl CondensedUnit {
     /// Of a unit whose k1 acts or does not.
     #[inline(always)]
-    pub fn new(
-        chain: &Chain<f64>,
-        acts: bool,
-        weights: &crate::kinematics::TangentWeights,
-    ) -> Self {
+    pub fn new(chain: &Chain, acts: bool, weights: &crate::kinematics::TangentWeights) -> Self {
         let own =
             weights.mass * chain.m2 + weights.damping * chain.c + weights.stiffness * chain.k2;
         let k = if acts { weights.stiffness * chain.k1 } else { 0.0 };

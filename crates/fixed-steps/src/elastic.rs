@@ -27,7 +27,7 @@ use crate::{
 pub struct FixedStepFrame<'a> {
     frame: &'a Frame,
     /// Under each corner.
-    units: &'a [Springs<Chain<f64>>],
+    units: &'a [Springs<Chain>],
 }
 
 /// The matrix of the iteration, absorbers condensed.
@@ -44,10 +44,7 @@ impl<'a> FixedStepFrame<'a> {
     ///
     /// # Errors
     /// There are not as many units as corners.
-    pub fn new(
-        frame: &'a Frame,
-        units: &'a [Springs<Chain<f64>>],
-    ) -> Result<Self, EquilibriumError> {
+    pub fn new(frame: &'a Frame, units: &'a [Springs<Chain>]) -> Result<Self, EquilibriumError> {
         let (given, needed) = (units.len(), frame.places().len());
         if given != needed {
             return Err(EquilibriumError::Mismatch { what: "springs", given, needed });
@@ -62,7 +59,7 @@ impl<'a> FixedStepFrame<'a> {
 
     /// Every corner with its unit and the index of its horizontal absorber; the vertical one
     /// follows.
-    fn corners(&self) -> impl Iterator<Item = (usize, &PlaceOnNode, &Springs<Chain<f64>>)> {
+    fn corners(&self) -> impl Iterator<Item = (usize, &PlaceOnNode, &Springs<Chain>)> {
         let n = self.n();
         self.frame
             .places()
@@ -80,13 +77,12 @@ impl FixedStepModel for FixedStepFrame<'_> {
     type Factor = FrameFactor;
 
     fn standing(&self) -> Result<(Vec<f64>, Vec<FixedFoot>), EquilibriumError> {
-        let support = |unit: &Springs<Chain<f64>>| {
-            Some([unit.horizontal.in_series(), unit.vertical.in_series()])
-        };
+        let support =
+            |unit: &Springs<Chain>| Some([unit.horizontal.in_series(), unit.vertical.in_series()]);
         let supports: Vec<Support> = self.units.iter().map(support).collect();
         let mut q = self.frame.standing(&supports)?.as_slice().to_vec();
         for (place, unit) in self.frame.places().iter().zip(self.units) {
-            let share = |chain: &Chain<f64>| chain.k1 / (chain.k1 + chain.k2);
+            let share = |chain: &Chain| chain.k1 / (chain.k1 + chain.k2);
             let [x, z] = place.reach(&q).place;
             q.extend([x * share(&unit.horizontal), z * share(&unit.vertical)]);
         }

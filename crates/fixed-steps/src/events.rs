@@ -217,7 +217,7 @@ mod tests {
         Integrator::BackwardEuler,
     ];
 
-    fn springs(mass: f64) -> Springs<Chain<f64>> {
+    fn springs(mass: f64) -> Springs<Chain> {
         let unit = Design::from_kc(0.3, 0.1, 0.75, 20.0);
         Springs { vertical: unit, horizontal: unit }.chains(mass)
     }

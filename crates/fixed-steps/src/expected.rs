@@ -49,7 +49,7 @@ impl ExpectedError {
     /// Of a body on these units, stepped by dt (s).
     pub fn of(
         body: &Body<f64>,
-        springs: &Springs<Chain<f64>>,
+        springs: &Springs<Chain>,
         dt: f64,
         integrator: &Integrator,
     ) -> Self {

@@ -110,11 +110,7 @@ impl WellConditioned {
     }
 
     /// The errors of springs in a program that steps so.
-    pub fn errors(
-        &self,
-        springs: &Springs<Chain<f64>>,
-        settings: StepSettings,
-    ) -> ErrorsOverMotions {
+    pub fn errors(&self, springs: &Springs<Chain>, settings: StepSettings) -> ErrorsOverMotions {
         let model = FixedStepBody::new(&self.body, springs);
         ErrorsOverMotions::of(self.motions.iter().map(|motion| motion.errors(&model, settings)))
     }

@@ -103,7 +103,7 @@ impl FixedStepModel for FallingMass {
 
 /// v_r/v_n of a unit under a body's new foot with this step (s): the root of the mean square over
 /// the places within a step at which it lands.
-pub fn rebound(body: &Body<f64>, chain: &Chain<f64>, dt: f64, integrator: &Integrator) -> f64 {
+pub fn rebound(body: &Body<f64>, chain: &Chain, dt: f64, integrator: &Integrator) -> f64 {
     let design = chain.design(body.mass);
     let sin = body.half_width / body.radius();
     let mass = 1.0 - body.mass_share() * sin * sin;

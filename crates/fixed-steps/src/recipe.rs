@@ -178,7 +178,7 @@ impl FixedStepSprings {
     }
 
     /// With units.
-    pub fn chains(&self) -> Springs<Chain<f64>> {
+    pub fn chains(&self) -> Springs<Chain> {
         self.units.chains(self.body.mass)
     }
 

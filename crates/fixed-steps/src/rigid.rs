@@ -43,7 +43,7 @@ const fn absorber(i: usize) -> usize {
 #[derive(Clone, Copy, Debug)]
 pub struct FixedStepBody {
     body: Body<f64>,
-    springs: Springs<Chain<f64>>,
+    springs: Springs<Chain>,
 }
 
 /// A foot's place, and its derivatives by theta.
@@ -70,7 +70,7 @@ pub struct BodyFactor {
 
 impl FixedStepBody {
     /// A body with rotational inertia I > 0 on these units under each foot.
-    pub fn new(body: &Body<f64>, springs: &Springs<Chain<f64>>) -> Self {
+    pub fn new(body: &Body<f64>, springs: &Springs<Chain>) -> Self {
         Self { body: *body, springs: *springs }
     }
 

@@ -28,7 +28,7 @@ fn pier(bending_damping: f64) -> Frame {
         .unwrap()
 }
 
-fn units() -> Vec<Springs<Chain<f64>>> {
+fn units() -> Vec<Springs<Chain>> {
     let vertical = Design::from_kc(0.3, 0.1, 0.75, 20.0);
     let horizontal = Design::from_kc(0.3, 0.57, 1.86, 20.0);
     vec![Springs { vertical, horizontal }.chains(1.2e5); 2]

@@ -23,7 +23,7 @@ fn block() -> Body<f64> {
     Structure::block(2.6, 0.7, 1e3).unwrap().body()
 }
 
-fn units(body: &Body<f64>) -> Springs<Chain<f64>> {
+fn units(body: &Body<f64>) -> Springs<Chain> {
     let vertical = Design::from_kc(0.3, 0.1, 0.75, 20.0);
     let horizontal = Design::from_kc(0.3, 0.57, 1.86, 20.0);
     Springs { vertical, horizontal }.chains(body.mass)

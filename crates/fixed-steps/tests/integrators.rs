@@ -218,7 +218,7 @@ fn a_linear_chain_under_a_ramp() {
 /// Mass u, absorber a: m u'' = -m t - k1 (u - a), m2 a'' = k1 (u - a) - k2 a - c a'.
 struct LinearChain {
     mass: f64,
-    chain: Chain<f64>,
+    chain: Chain,
 }
 
 impl FixedStepModel for LinearChain {
@@ -270,7 +270,7 @@ impl FixedStepModel for LinearChain {
 }
 
 /// x = (u, a, u', a'): the ramp is a polynomial, so x = x_p(t) + exp(A t)(x(0) - x_p(0)).
-fn exact_chain(mass: f64, chain: &Chain<f64>, t: f64) -> [f64; 2] {
+fn exact_chain(mass: f64, chain: &Chain, t: f64) -> [f64; 2] {
     let Chain { k1, k2, m2, c } = *chain;
     let a = Matrix4::new(
         0.0,

@@ -129,7 +129,7 @@ pub enum AnswerError {
 /// to a time step.
 fn follow(
     frame: &Frame,
-    springs: &[Springs<Chain<f64>>],
+    springs: &[Springs<Chain>],
     record: &Record,
     parts: usize,
 ) -> Result<ElasticHistory, EquilibriumError> {
@@ -236,7 +236,7 @@ impl ElasticHistories {
     /// The structure does not stand.
     pub fn new(
         assembled: &Assembled,
-        springs: &[Springs<Chain<f64>>],
+        springs: &[Springs<Chain>],
         record: &Record,
         reference: Reference,
     ) -> Result<Self, AnswerError> {
@@ -271,7 +271,7 @@ impl ElasticAnswer {
     /// The structure does not stand.
     pub fn new(
         assembled: &Assembled,
-        springs: &[Springs<Chain<f64>>],
+        springs: &[Springs<Chain>],
         record: &Record,
         reference: Reference,
     ) -> Result<Self, AnswerError> {
@@ -285,7 +285,7 @@ impl ElasticAnswer {
     /// The structure does not stand.
     pub fn within(
         assembled: &Assembled,
-        springs: &[Springs<Chain<f64>>],
+        springs: &[Springs<Chain>],
         record: &Record,
         reference: Reference,
         near: Option<u64>,

@@ -58,7 +58,7 @@ pub struct Assembled {
     /// As given.
     pub structure: ElasticStructure,
     /// What it has besides.
-    pub members: Members<f64>,
+    pub members: Members,
     /// Its parts, members among them.
     pub layout: FrameLayout,
     /// The parts assembled.
@@ -84,7 +84,7 @@ impl Assembled {
     /// Parts that do not fit together; a structure that does not stand under its tendon.
     pub fn with_members(
         structure: ElasticStructure,
-        members: Members<f64>,
+        members: Members,
     ) -> Result<Self, AssemblyError> {
         let layout = stressed(structure.layout_with(&members))?;
         Ok(Self::of(structure, members, layout)?)
@@ -92,7 +92,7 @@ impl Assembled {
 
     fn of(
         structure: ElasticStructure,
-        members: Members<f64>,
+        members: Members,
         layout: FrameLayout,
     ) -> Result<Self, FrameError> {
         let frame = layout.frame()?;

@@ -194,7 +194,7 @@ impl StructureForces {
     /// A structure with its elements doubled or on other springs does not stand.
     pub(crate) fn new(
         checked: bool,
-        (assembled, springs, record): (&Assembled, &[Springs<Chain<f64>>], &Record),
+        (assembled, springs, record): (&Assembled, &[Springs<Chain>], &Record),
         (fem, fixed): (&ElasticHistory, &ElasticHistory),
         foretold_s: Option<f64>,
         rigid: Option<&RigidForces>,
@@ -286,7 +286,7 @@ pub struct OtherMotion {
 /// The structure does not stand.
 pub fn through(
     assembled: &Assembled,
-    springs: &[Springs<Chain<f64>>],
+    springs: &[Springs<Chain>],
     record: &Record,
 ) -> Result<OtherMotion, EquilibriumError> {
     let history = check::follow(&assembled.structure, &assembled.frame, springs, record)?;

@@ -85,7 +85,7 @@ impl Ensemble {
     /// The structure does not stand.
     pub(crate) fn new(
         assembled: &Assembled,
-        springs: &[Springs<Chain<f64>>],
+        springs: &[Springs<Chain>],
         record: &Record,
         most_work: u64,
     ) -> Result<(Option<Self>, usize), RestError> {
@@ -172,7 +172,7 @@ fn on_rigid_ground(
 
 fn on_springs(
     assembled: &Assembled,
-    springs: &[Springs<Chain<f64>>],
+    springs: &[Springs<Chain>],
     record: &Record,
     scale: f64,
 ) -> Near {

@@ -97,7 +97,7 @@ pub struct ElasticAnalysis<'a> {
     /// The structure.
     pub frame: &'a Frame,
     /// Under every corner; none under a frame that is held.
-    pub springs: &'a [Springs<Chain<f64>>],
+    pub springs: &'a [Springs<Chain>],
     /// How it begins.
     pub start: ElasticStart,
     /// Sampling interval (s).
@@ -132,7 +132,7 @@ impl<'a> ElasticAnalysis<'a> {
     /// On horizontal ground motion, unscaled, at the default accuracy, its forces kept.
     pub fn new(
         frame: &'a Frame,
-        springs: &'a [Springs<Chain<f64>>],
+        springs: &'a [Springs<Chain>],
         start: ElasticStart,
         dt: f64,
         accel: &'a [f64],

@@ -50,7 +50,7 @@ pub struct ElasticParts<'a> {
     /// The part of the record that is used, scaled.
     pub record: &'a Record,
     /// Under every corner.
-    pub springs: &'a [Springs<Chain<f64>>],
+    pub springs: &'a [Springs<Chain>],
     /// Both models' answers.
     pub answer: &'a ElasticAnswer,
     /// The friction coefficient that the ground offers.

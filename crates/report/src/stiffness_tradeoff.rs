@@ -120,16 +120,16 @@ struct ForceWatch {
     changes: Vec<f64>,
 }
 
-impl Observer<f64> for ForceWatch {
-    fn sample(&mut self, _: usize, _: &View<f64>) -> ControlFlow<()> {
+impl Observer for ForceWatch {
+    fn sample(&mut self, _: usize, _: &View) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
 
-    fn step(&mut self, view: &View<f64>) {
+    fn step(&mut self, view: &View) {
         self.largest = self.largest.max(view.vertical_force(0)).max(view.vertical_force(1));
     }
 
-    fn event(&mut self, _: usize, _: Change, view: &View<f64>) {
+    fn event(&mut self, _: usize, _: Change, view: &View) {
         self.changes.push(view.time);
     }
 }

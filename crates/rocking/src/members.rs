@@ -30,50 +30,44 @@ pub fn names_legs(message: &str) -> bool {
 /// Dashpots across the rocking interface, one at each foot.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Damper<S> {
+pub struct Damper {
     /// Force over velocity (N s/m).
     #[serde(rename = "c_ns_per_m")]
-    pub c: S,
+    pub c: f64,
 }
 
 /// A post-tensioned tendon from the mass to the ground midway between the feet.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Tendon<S> {
+pub struct Tendon {
     /// Force over elongation (N/m).
     #[serde(rename = "stiffness_n_per_m")]
-    pub stiffness: S,
+    pub stiffness: f64,
     /// Tension in the standing, settled structure (N).
     #[serde(rename = "pretension_n")]
-    pub pretension: S,
+    pub pretension: f64,
 }
 
 /// Coulomb friction between feet and ground; without it a pressing foot holds at any force.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Friction<S> {
+pub struct Friction {
     /// Horizontal over vertical force at which a foot slips.
-    pub coefficient: S,
+    pub coefficient: f64,
 }
 
 /// Everything besides the rigid body; by default nothing.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Members<S> {
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Members {
     /// Dampers between feet and ground.
-    pub damper: Option<Damper<S>>,
+    pub damper: Option<Damper>,
     /// A tendon that holds the body down.
-    pub tendon: Option<Tendon<S>>,
+    pub tendon: Option<Tendon>,
     /// Of a body without other members.
-    pub friction: Option<Friction<S>>,
+    pub friction: Option<Friction>,
 }
 
-impl<S> Default for Members<S> {
-    fn default() -> Self {
-        Self { damper: None, tendon: None, friction: None }
-    }
-}
-
-impl<S> Members<S> {
+impl Members {
     /// Whether there is only the rigid body.
     pub fn is_none(&self) -> bool {
         !self.any() && self.friction.is_none()
@@ -115,7 +109,7 @@ pub enum MembersError {
     Elongation { pretension: f64, height: f64, most: f64 },
 }
 
-impl Members<f64> {
+impl Members {
     /// The members themselves if their numbers make sense under a body.
     ///
     /// # Errors
@@ -184,18 +178,6 @@ impl Members<f64> {
         }
         Ok(())
     }
-
-    /// The same as scalars, to compute or to differentiate with.
-    pub fn lift<S: crate::scalar::Scalar>(&self) -> Members<S> {
-        use crate::scalar::real;
-        Members {
-            damper: self.damper.map(|d| Damper { c: real(d.c) }),
-            tendon: self
-                .tendon
-                .map(|t| Tendon { stiffness: real(t.stiffness), pretension: real(t.pretension) }),
-            friction: self.friction.map(|f| Friction { coefficient: real(f.coefficient) }),
-        }
-    }
 }
 
 #[cfg(test)]
@@ -203,7 +185,7 @@ mod tests {
     use super::*;
     use crate::structure::Structure;
 
-    fn message(members: Members<f64>) -> String {
+    fn message(members: Members) -> String {
         members.checked(&Structure::paper().body()).unwrap_err().to_string()
     }
 
@@ -226,7 +208,7 @@ mod tests {
 
     #[test]
     fn nothing_is_the_default() {
-        assert!(Members::<f64>::default().is_none());
+        assert!(Members::default().is_none());
         assert!(Members::default().checked(&Structure::paper().body()).is_ok());
     }
 }

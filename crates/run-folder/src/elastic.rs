@@ -83,9 +83,8 @@ pub fn springs_alone(
     tuned: &ElasticTuned,
     asked: Asked,
 ) -> ElasticParameters {
-    let place = |(i, springs): (usize, &Springs<Chain<f64>>)| {
-        (assembled.layout.corners[i].place[0], *springs)
-    };
+    let place =
+        |(i, springs): (usize, &Springs<Chain>)| (assembled.layout.corners[i].place[0], *springs);
     let corners: Vec<_> = tuned.springs.corners.iter().enumerate().map(place).collect();
     let Asked { by: judged_by, error: accuracy } = asked;
     let assessment =
@@ -108,7 +107,7 @@ fn program_row(assembled: &Assembled, program: &ElasticProgramSprings) -> Progra
 /// The deck that is to find this history, in a format, its steps for an accuracy.
 pub fn deck(
     assembled: &Assembled,
-    springs: &[Springs<Chain<f64>>],
+    springs: &[Springs<Chain>],
     record: &Record,
     history: &ElasticHistory,
     (format, accuracy): (DeckFormat, f64),
@@ -119,7 +118,7 @@ pub fn deck(
 /// The same of any springs and history, which is compared up to a time (s) if one is given.
 fn deck_of(
     assembled: &Assembled,
-    (springs, program): (&[Springs<Chain<f64>>], Option<&ProgramRow<CornerUnits>>),
+    (springs, program): (&[Springs<Chain>], Option<&ProgramRow<CornerUnits>>),
     record: &Record,
     (history, until): (&[Vec<f64>], Option<f64>),
     (format, accuracy): (DeckFormat, f64),

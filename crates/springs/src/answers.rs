@@ -45,8 +45,8 @@ pub struct ModelComparison {
 pub fn both(
     body: &Body<f64>,
     restitution: f64,
-    springs: &Springs<Chain<f64>>,
-    members: &Members<f64>,
+    springs: &Springs<Chain>,
+    members: &Members,
     record: &Record,
 ) -> ModelComparison {
     let level = housner::RockingOptions { restitution: Some(restitution), ..Default::default() };
@@ -55,7 +55,7 @@ pub fn both(
     let level =
         record.vertical.as_ref().map(|_| housner::solve(body, record.dt, &record.accel, &level));
     let motion = rocking.motion(body);
-    let answer = |members: &Members<f64>| {
+    let answer = |members: &Members| {
         with_members(body, restitution, springs, members, record, (&rocking, &motion))
     };
     let MemberHistory { history: fem, demands, matched, .. } = answer(&Members::default());
@@ -67,8 +67,8 @@ pub fn both(
 pub fn with_members(
     body: &Body<f64>,
     restitution: f64,
-    springs: &Springs<Chain<f64>>,
-    members: &Members<f64>,
+    springs: &Springs<Chain>,
+    members: &Members,
     record: &Record,
     (rocking, motion): (&Rocking<f64>, &Motion),
 ) -> MemberHistory {
@@ -132,7 +132,7 @@ impl ModelComparison {
 /// A history with members, and what it says.
 pub struct MemberHistory {
     /// What the body has besides.
-    pub members: Members<f64>,
+    pub members: Members,
     /// The finite element history with them.
     pub history: History,
     /// Forces in it.

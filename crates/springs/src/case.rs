@@ -118,9 +118,9 @@ impl Default for Tuning {
 struct CaseFile {
     structure: StructureSection,
     /// Members that are simulated after tuning, with the springs of the rigid body.
-    damper: Option<Damper<f64>>,
-    tendon: Option<Tendon<f64>>,
-    friction: Option<Friction<f64>>,
+    damper: Option<Damper>,
+    tendon: Option<Tendon>,
+    friction: Option<Friction>,
     #[serde(default)]
     record: RecordSection,
     #[serde(default)]
@@ -141,7 +141,7 @@ pub struct Case {
     /// Which of its numbers the case file gave, and which were taken for it.
     pub given: GivenKeys,
     /// Dampers, a tendon, friction: not tuned for, but simulated with the tuned springs.
-    pub members: Members<f64>,
+    pub members: Members,
     /// The record as read, its scale, the length asked for: what `record` and `duration_s` come
     /// from.
     pub excitation: Excitation,

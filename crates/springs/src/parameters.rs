@@ -110,13 +110,13 @@ pub struct Parameters {
     pub program: Option<ProgramRow<FootUnits>>,
     /// Dampers between feet and ground; the springs are tuned without them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub damper: Option<Damper<f64>>,
+    pub damper: Option<Damper>,
     /// A tendon.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub tendon: Option<Tendon<f64>>,
+    pub tendon: Option<Tendon>,
     /// Between feet and ground; without it a pressing foot holds at any force.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub friction: Option<Friction<f64>>,
+    pub friction: Option<Friction>,
     /// The match of the rigid body on the record.
     #[serde(rename = "match", default, skip_serializing_if = "Option::is_none")]
     pub matched: Option<Match>,
@@ -204,7 +204,7 @@ impl Parameters {
     }
 
     /// The springs with units; k1, k2, m2 and c of the file rule.
-    pub fn chains(&self) -> Springs<Chain<f64>> {
+    pub fn chains(&self) -> Springs<Chain> {
         Springs { vertical: self.vertical.chain(), horizontal: self.horizontal.chain() }
     }
 
@@ -221,12 +221,12 @@ impl Parameters {
     }
 
     /// What the structure has besides the rigid body.
-    pub fn members(&self) -> Members<f64> {
+    pub fn members(&self) -> Members {
         Members { damper: self.damper, tendon: self.tendon, friction: self.friction }
     }
 
     /// The same with these members.
-    pub fn with_members(self, members: Members<f64>) -> Self {
+    pub fn with_members(self, members: Members) -> Self {
         let Members { damper, tendon, friction } = members;
         Self { damper, tendon, friction, ..self }
     }

@@ -69,7 +69,7 @@ pub struct Validator {
     pub body: Body<f64>,
     /// Velocity restitution e of Housner's solution.
     pub restitution: f64,
-    pub springs: Springs<Chain<f64>>,
+    pub springs: Springs<Chain>,
     /// Length compared (s); each record's own unless given.
     pub duration_s: Option<f64>,
     pub control: Control,

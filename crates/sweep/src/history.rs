@@ -172,7 +172,7 @@ fn of_housner(subject: &Subject, rocking: &Rocking<f64>) -> CellAnswer {
 /// A finite element history that is wanted, and Housner's answer.
 pub(super) struct WantedHistory<'a> {
     pub subject: &'a Subject,
-    pub springs: Springs<Chain<f64>>,
+    pub springs: Springs<Chain>,
     pub scale: f64,
     pub rigid: &'a Rocking<f64>,
 }
@@ -182,7 +182,7 @@ impl WantedHistory<'_> {
     fn answer(
         &self,
         stream: &ComparisonObserver,
-        finish: &fem::Finish<f64>,
+        finish: &fem::Finish,
     ) -> (CellAnswer, Option<f64>) {
         let outcome = match finish.outcome {
             fem::HistoryOutcome::Overturned { .. } | fem::HistoryOutcome::Stopped { .. } => {
@@ -236,7 +236,7 @@ pub(super) fn elements(
         // peaks and comparisons alone
         control: fem::Control { long_steps: true, ..fem::Control::search() },
     };
-    let cases: Vec<fem::Analysis<f64>> = (0..wanted.len()).map(case).collect();
+    let cases: Vec<fem::Analysis> = (0..wanted.len()).map(case).collect();
     let followed = fem::histories(&cases, |i| {
         let WantedHistory { subject, rigid, .. } = &wanted[i];
         let standing = samples_until(rigid.overturned(), record.dt).min(rigid.theta.len());

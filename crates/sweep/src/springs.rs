@@ -60,7 +60,7 @@ impl Filed {
 /// Springs with units of every structure and restitution.
 #[derive(Clone, Debug)]
 pub struct SpringsTable {
-    chains: Vec<Springs<Chain<f64>>>,
+    chains: Vec<Springs<Chain>>,
     restitutions: usize,
     /// Geometries on which the accuracy was not reached.
     pub missed: Vec<String>,
@@ -158,7 +158,7 @@ impl SpringsTable {
     }
 
     /// The springs of a structure with a restitution of the plan.
-    pub(crate) fn of(&self, subject: usize, restitution: usize) -> Springs<Chain<f64>> {
+    pub(crate) fn of(&self, subject: usize, restitution: usize) -> Springs<Chain> {
         self.chains[subject * self.restitutions + restitution]
     }
 }

@@ -45,8 +45,8 @@ pub(crate) struct SapSection {
 
 impl SapSection {
     /// All but rigid, beside springs as stiff as this, of a frame of this length.
-    pub(crate) fn rigid(name: String, springs: &[Springs<Chain<f64>>], length: f64) -> Self {
-        let of = |s: &Springs<Chain<f64>>| {
+    pub(crate) fn rigid(name: String, springs: &[Springs<Chain>], length: f64) -> Self {
+        let of = |s: &Springs<Chain>| {
             s.vertical.k1.max(s.vertical.k2).max(s.horizontal.k1).max(s.horizontal.k2)
         };
         let stiffness = RIGID * springs.iter().map(of).fold(0.0, f64::max);
@@ -76,7 +76,7 @@ pub(crate) struct FootJoints {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct SpringLinks {
     pub suffix: String,
-    pub springs: Springs<Chain<f64>>,
+    pub springs: Springs<Chain>,
 }
 
 /// A model for tables.

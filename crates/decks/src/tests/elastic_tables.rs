@@ -24,7 +24,7 @@ fn structure(text: &str) -> ElasticStructure {
 }
 
 /// Springs that differ from corner to corner.
-fn springs(corners: usize) -> Vec<Springs<Chain<f64>>> {
+fn springs(corners: usize) -> Vec<Springs<Chain>> {
     let chain = |x: f64| Chain { k1: 1e10 * x, k2: 7e8 * x, m2: 2e4 * x, c: 3e7 * x };
     let of = |i: usize| 1.0 + 0.1 * i as f64;
     (0..corners)

@@ -2,7 +2,6 @@
 //! of rigid bodies and of elastic frames share.
 
 use super::energy::Energy;
-use rocking::scalar::Scalar;
 
 /// The energy that all steps together may lose or gain, in units of `Control::tolerance`.
 const BUDGET: f64 = 50.0;
@@ -26,10 +25,10 @@ pub fn allowed_error(tolerance: f64) -> f64 {
 /// less and less as the account's budget is used up, so that the residual stays within it however
 /// long the history; never less than rounding makes of it.
 #[inline(always)]
-pub fn allowed_energy<S: Scalar>(most: f64, account: &Energy<S>, stored: S) -> f64 {
-    let left = (1.0 - account.residual().re().abs() / (BUDGET * most)).max(0.0);
+pub fn allowed_energy(most: f64, account: &Energy, stored: f64) -> f64 {
+    let left = (1.0 - account.residual().abs() / (BUDGET * most)).max(0.0);
     let entries = [stored, account.input, account.dissipated, account.released];
-    let rounding = entries.iter().map(|e| e.re().abs()).fold(0.0, f64::max) * (32.0 * f64::EPSILON);
+    let rounding = entries.iter().map(|e| e.abs()).fold(0.0, f64::max) * (32.0 * f64::EPSILON);
     (most * left.powi(4)).max(rounding)
 }
 

@@ -4,7 +4,6 @@
 use num_traits::Num;
 
 use crate::spring::Chain;
-use rocking::scalar::Scalar;
 
 /// One chain's share of the condensed matrix.
 #[derive(Clone, Copy)]
@@ -22,7 +21,7 @@ pub struct Condensed<T> {
 impl<T: Num + Copy> Condensed<T> {
     /// Of a chain whose gap is closed or open, for a step of size s.
     #[inline(always)]
-    pub fn new<S: Scalar>(chain: &Chain<S>, closed: bool, s: T, lift: &impl Fn(S) -> T) -> Self {
+    pub fn new(chain: &Chain, closed: bool, s: T, lift: &impl Fn(f64) -> T) -> Self {
         let base = lift(chain.m2) + s * (lift(chain.c) + s * lift(chain.k2));
         if closed {
             let coupling = s * s * lift(chain.k1);

@@ -5,8 +5,6 @@
 //!   Coulomb    the same while |H| < mu N, then    H = -+ mu N while it slips to +-1       takes mu N |w|, w the slip rate
 //! ```
 
-use rocking::scalar::Scalar;
-
 /// How a foot meets its ground chain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Contact {
@@ -25,12 +23,12 @@ pub(crate) enum Contact {
 
 /// A foot's contact and the horizontal anchor it landed on (m).
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Foot<S> {
+pub(crate) struct Foot {
     pub contact: Contact,
-    pub anchor: S,
+    pub anchor: f64,
 }
 
-impl<S> Foot<S> {
+impl Foot {
     /// Whether the foot is on the ground.
     #[inline(always)]
     pub(crate) fn closed(&self) -> bool {
@@ -51,30 +49,30 @@ impl<S> Foot<S> {
 
 /// A foot's kinematics and contact forces in one configuration.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct FootForce<S> {
+pub(crate) struct FootForce {
     /// dp_x/dtheta (m).
-    pub px_th: S,
+    pub px_th: f64,
     /// dp_z/dtheta (m).
-    pub pz_th: S,
+    pub pz_th: f64,
     /// Horizontal force on the foot (N).
-    pub horizontal: S,
+    pub horizontal: f64,
     /// Vertical force on the foot, positive when pressing (N).
-    pub vertical: S,
+    pub vertical: f64,
 }
 
 /// What a pressing foot can take along the ground.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum ContactLaw<S> {
+pub(crate) enum ContactLaw {
     /// Any force.
     Sticking,
     /// mu N.
     Coulomb {
         /// mu.
-        coefficient: S,
+        coefficient: f64,
     },
 }
 
-impl<S: Scalar> ContactLaw<S> {
+impl ContactLaw {
     /// Whether a foot may slip.
     #[inline(always)]
     pub(crate) fn slips(&self) -> bool {
@@ -83,9 +81,9 @@ impl<S: Scalar> ContactLaw<S> {
 
     /// mu; zero where no foot slips.
     #[inline(always)]
-    pub(crate) fn coefficient(&self) -> S {
+    pub(crate) fn coefficient(&self) -> f64 {
         match *self {
-            Self::Sticking => S::zero(),
+            Self::Sticking => 0.0,
             Self::Coulomb { coefficient } => coefficient,
         }
     }
@@ -93,18 +91,10 @@ impl<S: Scalar> ContactLaw<S> {
     /// Force on a foot that presses with N and slips to a side (N); of a slope of N, that of the
     /// force.
     #[inline(always)]
-    pub(crate) fn slipping(&self, pressing: S, side: f64) -> S {
+    pub(crate) fn slipping(&self, pressing: f64, side: f64) -> f64 {
         match *self {
-            Self::Sticking => S::zero(),
+            Self::Sticking => 0.0,
             Self::Coulomb { coefficient } => -pressing * coefficient * side,
-        }
-    }
-
-    /// The law without derivatives.
-    pub(crate) fn real(&self) -> ContactLaw<f64> {
-        match self {
-            Self::Sticking => ContactLaw::Sticking,
-            Self::Coulomb { coefficient } => ContactLaw::Coulomb { coefficient: coefficient.re() },
         }
     }
 }

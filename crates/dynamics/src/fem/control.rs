@@ -10,8 +10,6 @@ pub struct Control {
     pub tolerance: f64,
     /// Steps per history before it is given up.
     pub most_steps: usize,
-    /// Iterations added after convergence (2 for dual numbers).
-    pub extra_iterations: usize,
     /// Take no steps while the body rests on still ground.
     pub skip_rest: bool,
     /// Solve nothing for an open foot's contact.
@@ -28,13 +26,6 @@ impl Control {
     }
 }
 
-impl Control {
-    /// Whether histories may be followed side by side with it.
-    pub(super) fn side_by_side(&self) -> bool {
-        self.skip_open && self.extra_iterations == 0
-    }
-}
-
 impl Default for Control {
     /// 20 s of El Centro, NRMSE of u against a tolerance of 1e-12: 2e-7 at most for the 61 m frame
     /// on springs of 160 Hz to 20 kHz, 5e-6 for a block of alpha 0.24 (`tests/fem/accuracy.rs`).
@@ -42,7 +33,6 @@ impl Default for Control {
         Self {
             tolerance: 1e-8,
             most_steps: 2_000_000,
-            extra_iterations: 0,
             skip_rest: true,
             skip_open: true,
             long_steps: false,

@@ -12,7 +12,6 @@ use super::{
     model::{Foot, Model, N, State, TH, X, Z, ax, az},
     newton::{Chains, absorbers, reach, share},
 };
-use rocking::scalar::Scalar;
 
 /// The condensed matrix for one eigenvalue, ready to solve with.
 pub(super) struct Coupled<T> {
@@ -24,13 +23,13 @@ pub(super) struct Coupled<T> {
 
 impl<T: Num + Copy + Neg<Output = T>> Coupled<T> {
     /// Factor at `state` for s = h lambda.
-    pub(crate) fn new<S: Scalar>(
+    pub(crate) fn new(
         chains: &Chains<T>,
-        model: &Model<S>,
-        state: &State<S>,
-        feet: &[Foot<S>; 2],
+        model: &Model,
+        state: &State,
+        feet: &[Foot; 2],
         s: T,
-        lift: &impl Fn(S) -> T,
+        lift: &impl Fn(f64) -> T,
     ) -> Self {
         let (contact, masses) = (model.contact(&state.q, feet), model.masses(feet));
         let [left, right] = [0, 1].map(|i| share(&chains.0[i], &contact[i], s, lift));

@@ -84,12 +84,12 @@ pub fn between_landings(
 }
 
 /// The forces at one instant.
-pub(super) fn demand(view: &View<f64>) -> DemandRow {
+pub(super) fn demand(view: &View) -> DemandRow {
     demand_of(view, &view.model.contact(&view.state.q, view.feet))
 }
 
 /// The same, of feet whose forces are known.
-fn demand_of(view: &View<f64>, feet: &[FootForce<f64>; 2]) -> DemandRow {
+fn demand_of(view: &View, feet: &[FootForce; 2]) -> DemandRow {
     let (model, q, v) = (view.model, &view.state.q, &view.state.v);
     let [left, right] = feet.each_ref().map(|f| {
         let (h, n) = (f.horizontal, f.vertical);
@@ -113,8 +113,8 @@ fn demand_of(view: &View<f64>, feet: &[FootForce<f64>; 2]) -> DemandRow {
     ]
 }
 
-impl Observer<f64> for Demands {
-    fn sample(&mut self, index: usize, view: &View<f64>) -> ControlFlow<()> {
+impl Observer for Demands {
+    fn sample(&mut self, index: usize, view: &View) -> ControlFlow<()> {
         if index == 0 {
             self.step(view);
         }
@@ -125,7 +125,7 @@ impl Observer<f64> for Demands {
         ControlFlow::Continue(())
     }
 
-    fn step(&mut self, view: &View<f64>) {
+    fn step(&mut self, view: &View) {
         for (k, value) in demand(view).into_iter().enumerate() {
             if value.abs() > self.largest[k].abs() {
                 self.largest[k] = value;

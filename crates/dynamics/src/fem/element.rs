@@ -13,35 +13,34 @@ pub(crate) use dampers::Dampers;
 pub(crate) use tendon::TendonElement;
 
 use super::model::{TH, Vector, X, Z};
-use rocking::scalar::Scalar;
 
 /// K [N/m, N, N m] and C [N s/m, N s, N m s] of an element, rows and columns X, Z, theta.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct ElementTangent<S> {
-    pub stiffness: [[S; 3]; 3],
-    pub damping: [[S; 3]; 3],
+pub(crate) struct ElementTangent {
+    pub stiffness: [[f64; 3]; 3],
+    pub damping: [[f64; 3]; 3],
 }
 
 /// What stands between the body and the ground.
-pub(crate) trait Element<S: Scalar> {
+pub(crate) trait Element {
     /// U (J).
-    fn energy(&self, q: &Vector<S>) -> S;
+    fn energy(&self, q: &Vector) -> f64;
     /// Force on X, Z (N) and theta (N m).
-    fn force(&self, q: &Vector<S>, v: &Vector<S>) -> [S; 3];
+    fn force(&self, q: &Vector, v: &Vector) -> [f64; 3];
     /// How that force changes.
-    fn tangent(&self, q: &Vector<S>, v: &Vector<S>) -> ElementTangent<S>;
+    fn tangent(&self, q: &Vector, v: &Vector) -> ElementTangent;
     /// P (W).
-    fn dissipation(&self, q: &Vector<S>, v: &Vector<S>) -> S;
+    fn dissipation(&self, q: &Vector, v: &Vector) -> f64;
 }
 
 /// All that a body has besides its springs.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Elements<S> {
-    pub dampers: Option<Dampers<S>>,
-    pub tendon: Option<TendonElement<S>>,
+pub(crate) struct Elements {
+    pub dampers: Option<Dampers>,
+    pub tendon: Option<TendonElement>,
 }
 
-impl<S> Elements<S> {
+impl Elements {
     /// A rigid body's.
     pub(crate) const NONE: Self = Self { dampers: None, tendon: None };
 
@@ -50,27 +49,17 @@ impl<S> Elements<S> {
     pub(crate) fn is_empty(&self) -> bool {
         self.dampers.is_none() && self.tendon.is_none()
     }
-}
-
-impl<S: Scalar> Elements<S> {
-    /// The elements without derivatives.
-    pub(crate) fn real(&self) -> Elements<f64> {
-        Elements {
-            dampers: self.dampers.map(|dampers| dampers.real()),
-            tendon: self.tendon.map(|tendon| tendon.real()),
-        }
-    }
 
     /// Those between body and ground.
-    pub(crate) fn each(&self) -> impl Iterator<Item = &dyn Element<S>> {
-        let dampers = self.dampers.as_ref().map(|dampers| dampers as &dyn Element<S>);
-        let tendon = self.tendon.as_ref().map(|tendon| tendon as &dyn Element<S>);
+    pub(crate) fn each(&self) -> impl Iterator<Item = &dyn Element> {
+        let dampers = self.dampers.as_ref().map(|dampers| dampers as &dyn Element);
+        let tendon = self.tendon.as_ref().map(|tendon| tendon as &dyn Element);
         dampers.into_iter().chain(tendon)
     }
 
     /// Add their forces to those on the body.
     #[inline(always)]
-    pub(crate) fn add_forces(&self, q: &Vector<S>, v: &Vector<S>, f: &mut Vector<S>) {
+    pub(crate) fn add_forces(&self, q: &Vector, v: &Vector, f: &mut Vector) {
         if !self.is_empty() {
             self.add_all_forces(q, v, f);
         }
@@ -78,28 +67,28 @@ impl<S: Scalar> Elements<S> {
 
     /// An energy and what the elements store (J).
     #[inline(always)]
-    pub(crate) fn add_energy(&self, energy: S, q: &Vector<S>) -> S {
+    pub(crate) fn add_energy(&self, energy: f64, q: &Vector) -> f64 {
         if self.is_empty() { energy } else { energy + self.stored(q) }
     }
 
     #[inline(never)]
-    fn stored(&self, q: &Vector<S>) -> S {
-        self.each().fold(S::zero(), |stored, element| stored + element.energy(q))
+    fn stored(&self, q: &Vector) -> f64 {
+        self.each().fold(0.0, |stored, element| stored + element.energy(q))
     }
 
     /// A power and what the elements take (W).
     #[inline(always)]
-    pub(crate) fn add_dissipation(&self, power: S, q: &Vector<S>, v: &Vector<S>) -> S {
+    pub(crate) fn add_dissipation(&self, power: f64, q: &Vector, v: &Vector) -> f64 {
         if self.is_empty() { power } else { power + self.dissipation(q, v) }
     }
 
     #[inline(never)]
-    fn dissipation(&self, q: &Vector<S>, v: &Vector<S>) -> S {
-        self.each().fold(S::zero(), |power, element| power + element.dissipation(q, v))
+    fn dissipation(&self, q: &Vector, v: &Vector) -> f64 {
+        self.each().fold(0.0, |power, element| power + element.dissipation(q, v))
     }
 
     #[inline(never)]
-    fn add_all_forces(&self, q: &Vector<S>, v: &Vector<S>, f: &mut Vector<S>) {
+    fn add_all_forces(&self, q: &Vector, v: &Vector, f: &mut Vector) {
         for element in self.each() {
             let force = element.force(q, v);
             for k in [X, Z, TH] {

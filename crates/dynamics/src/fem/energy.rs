@@ -1,32 +1,30 @@
 //! The energy account: what came in, what is stored, what was lost, and what is left unexplained.
 
-use rocking::scalar::Scalar;
-
 /// Energy account since the start (J).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Energy<S> {
+pub struct Energy {
     /// Stored at the start.
-    pub initial: S,
+    pub initial: f64,
     /// Kinetic, gravitational and elastic energy now.
-    pub stored: S,
+    pub stored: f64,
     /// Work of the base excitation.
-    pub input: S,
+    pub input: f64,
     /// Taken by the dashpots.
-    pub dissipated: S,
+    pub dissipated: f64,
     /// Elastic energy of horizontal springs let go when their foot left the ground.
-    pub released: S,
+    pub released: f64,
 }
 
-impl<S: Scalar> Energy<S> {
+impl Energy {
     /// The account of a run that begins with this much stored (J).
-    pub fn new(stored: S) -> Self {
-        let zero = S::zero();
+    pub fn new(stored: f64) -> Self {
+        let zero = 0.0;
         Self { initial: stored, stored, input: zero, dissipated: zero, released: zero }
     }
 
     /// Book a step.
     #[inline]
-    pub fn book(&mut self, stored: S, input: S, dissipated: S) {
+    pub fn book(&mut self, stored: f64, input: f64, dissipated: f64) {
         self.stored = stored;
         self.input += input;
         self.dissipated += dissipated;
@@ -35,11 +33,11 @@ impl<S: Scalar> Energy<S> {
     /// The larger of the largest energy so far and that of now (J).
     #[inline]
     pub fn largest(&self, so_far: f64) -> f64 {
-        so_far.max(self.input.re().abs()).max((self.stored - self.initial).re().abs())
+        so_far.max(self.input.abs()).max((self.stored - self.initial).abs())
     }
 
     /// What the account leaves unexplained: stored - initial - input + dissipated + released (J).
-    pub fn residual(&self) -> S {
+    pub fn residual(&self) -> f64 {
         self.stored - self.initial - self.input + self.dissipated + self.released
     }
 }

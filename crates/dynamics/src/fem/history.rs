@@ -39,7 +39,7 @@ pub struct Account {
 
 impl Account {
     /// The account at a sample.
-    pub fn push(&mut self, energy: &Energy<f64>) {
+    pub fn push(&mut self, energy: &Energy) {
         self.input.push(energy.input);
         self.stored.push(energy.stored - energy.initial);
         self.dissipated.push(energy.dissipated + energy.released);
@@ -126,7 +126,7 @@ impl Recorder {
     }
 
     /// The history, once the run is over.
-    pub fn finish(self, finish: Finish<f64>) -> History {
+    pub fn finish(self, finish: Finish) -> History {
         let lost = finish.energy.dissipated + finish.energy.released;
         let (landings, airborne) = self.events.landings(self.end, lost);
         History {
@@ -143,8 +143,8 @@ impl Recorder {
     }
 }
 
-impl Observer<f64> for Recorder {
-    fn sample(&mut self, index: usize, view: &View<f64>) -> ControlFlow<()> {
+impl Observer for Recorder {
+    fn sample(&mut self, index: usize, view: &View) -> ControlFlow<()> {
         let q = &view.state.q;
         if index == 0 {
             self.initial_z = q[Z];
@@ -173,7 +173,7 @@ impl Observer<f64> for Recorder {
         ControlFlow::Continue(())
     }
 
-    fn step(&mut self, view: &View<f64>) {
+    fn step(&mut self, view: &View) {
         let feet = view.model.contact(&view.state.q, view.feet);
         let [left, right] = [&feet[0], &feet[1]].map(|f| f.vertical);
         let forces = feet
@@ -188,7 +188,7 @@ impl Observer<f64> for Recorder {
         }
     }
 
-    fn event(&mut self, foot: usize, change: Change, view: &View<f64>) {
+    fn event(&mut self, foot: usize, change: Change, view: &View) {
         self.events.events.push(ContactEvent {
             time: view.time,
             foot,

@@ -4,7 +4,6 @@
 use num_complex::Complex;
 
 use super::radau::{A, A2, ALPHA, BETA, C, E, T, T_INV};
-use rocking::scalar::Scalar;
 
 /// Iterations before a step counts as diverged.
 const MOST_ITERATIONS: usize = 12;
@@ -12,31 +11,31 @@ const MOST_ITERATIONS: usize = 12;
 /// Ground acceleration along a step, horizontal and vertical, by powers of the time since its
 /// start.
 #[derive(Clone, Copy, Debug)]
-pub struct Ground<S> {
+pub struct Ground {
     /// (m/s2)
-    pub start: [S; 2],
+    pub start: [f64; 2],
     /// [m/s3]
-    pub slope: [S; 2],
+    pub slope: [f64; 2],
     /// [m/s4]; zero between two samples.
-    pub curve: [S; 2],
+    pub curve: [f64; 2],
 }
 
-impl<S: Scalar> Ground<S> {
+impl Ground {
     /// Ground at rest.
     pub fn still() -> Self {
-        let none = [S::zero(); 2];
+        let none = [0.0; 2];
         Self { start: none, slope: none, curve: none }
     }
 
     /// At a share of a time h (s) after the start.
     #[inline(always)]
-    pub fn after(&self, h: S, share: f64) -> [S; 2] {
+    pub fn after(&self, h: f64, share: f64) -> [f64; 2] {
         let at = |k: usize| self.start[k] + (self.slope[k] + self.curve[k] * h * share) * h * share;
         [at(0), at(1)]
     }
 
     /// The same between two samples, from a later time on (s).
-    pub fn from(&self, time: S) -> Self {
+    pub fn from(&self, time: f64) -> Self {
         Self { start: self.after(time, 1.0), ..*self }
     }
 }
@@ -50,11 +49,9 @@ pub struct Convergence {
     pub rate: f64,
     /// The last correction (m).
     last: f64,
-    /// Iterations still to be added, once converged.
-    left: Option<usize>,
+    converged: bool,
     tolerance: f64,
     rounding: f64,
-    extra: usize,
 }
 
 /// What becomes of an iteration.
@@ -69,16 +66,16 @@ pub enum IterationVerdict {
 }
 
 impl Convergence {
-    /// For corrections below `tolerance` (m), or what rounding makes of them (m); `extra`
-    /// iterations after that. An iteration is expected to reduce the error by `rate`, 1 if unknown.
-    pub fn new(tolerance: f64, rounding: f64, extra: usize, rate: f64) -> Self {
-        Self { iterations: 0, rate, last: f64::INFINITY, left: None, tolerance, rounding, extra }
+    /// For corrections below `tolerance` (m), or what rounding makes of them (m). An iteration is
+    /// expected to reduce the error by `rate`, 1 if unknown.
+    pub fn new(tolerance: f64, rounding: f64, rate: f64) -> Self {
+        Self { iterations: 0, rate, last: f64::INFINITY, converged: false, tolerance, rounding }
     }
 
     /// Whether another iteration is to be made.
     #[inline(always)]
     pub fn verdict(&self) -> IterationVerdict {
-        if self.left == Some(0) {
+        if self.converged {
             IterationVerdict::Converged
         } else if self.iterations == MOST_ITERATIONS {
             IterationVerdict::Failed
@@ -97,10 +94,9 @@ impl Convergence {
     #[must_use]
     pub fn moved(&mut self, change: f64) -> bool {
         self.iterations += 1;
-        // once converged, or as far as rounding lets it, what is left may well grow
+        // as far as rounding lets it, what is left may well grow
         let rounded = self.iterations > 5 && change <= self.rounding;
-        let grows =
-            self.left.is_none() && !rounded && self.iterations > 3 && change > 2.0 * self.last;
+        let grows = !rounded && self.iterations > 3 && change > 2.0 * self.last;
         if !change.is_finite() || grows {
             return false;
         }
@@ -111,20 +107,14 @@ impl Convergence {
         let missing =
             if self.rate < 1.0 { change * self.rate / (1.0 - self.rate) } else { f64::INFINITY };
         self.last = change;
-        self.left = match self.left {
-            Some(n) => Some(n - 1),
-            None if rounded || change <= self.tolerance || missing <= self.tolerance => {
-                Some(self.extra)
-            }
-            None => None,
-        };
+        self.converged = rounded || change <= self.tolerance || missing <= self.tolerance;
         true
     }
 }
 
 /// Place and velocity of coordinate k at stage i, from the accelerations at all stages.
 #[inline(always)]
-pub fn stage<S: Scalar>(i: usize, (q, v): (S, S), [a0, a1, a2]: [S; 3], h: S) -> (S, S) {
+pub fn stage(i: usize, (q, v): (f64, f64), [a0, a1, a2]: [f64; 3], h: f64) -> (f64, f64) {
     let ([b0, b1, b2], [d0, d1, d2]) = (A2[i], A[i]);
     (
         q + (v * (h * C[i]) + (a0 * b0 + a1 * b1 + a2 * b2) * (h * h)),
@@ -135,14 +125,14 @@ pub fn stage<S: Scalar>(i: usize, (q, v): (S, S), [a0, a1, a2]: [S; 3], h: S) ->
 /// The residuals of a coordinate at the stages in the eigenvectors of A: the real one, and one of
 /// the pair.
 #[inline(always)]
-pub fn modes<S: Scalar>([a, b, c]: [S; 3]) -> (S, Complex<S>) {
+pub fn modes([a, b, c]: [f64; 3]) -> (f64, Complex<f64>) {
     let mode = |row: usize| a * T_INV[row][0] + b * T_INV[row][1] + c * T_INV[row][2];
     (mode(0), Complex::new(mode(1), -mode(2)))
 }
 
 /// The corrections at the stages from those of the eigenvectors.
 #[inline(always)]
-pub fn from_modes<S: Scalar>(w0: S, w1: Complex<S>) -> [S; 3] {
+pub fn from_modes(w0: f64, w1: Complex<f64>) -> [f64; 3] {
     let at = |[t0, t1, t2]: [f64; 3]| w0 * t0 + w1.re * t1 - w1.im * t2;
     [at(T[0]), at(T[1]), at(T[2])]
 }
@@ -166,8 +156,8 @@ pub fn complex(x: f64) -> Complex<f64> {
     Complex::new(x, 0.0)
 }
 
-/// A complex number of any scalar times a real one's.
+/// A complex number times another.
 #[inline(always)]
-pub(crate) fn times<S: Scalar>(x: Complex<S>, t: Complex<f64>) -> Complex<S> {
+pub(crate) fn times(x: Complex<f64>, t: Complex<f64>) -> Complex<f64> {
     Complex::new(x.re * t.re - x.im * t.im, x.re * t.im + x.im * t.re)
 }

@@ -21,14 +21,14 @@ use kernel::{Kernel, Tried, WIDTH};
 ///
 /// Each history is the one that [`Analysis::observe`] gives, bit for bit, on any number of threads
 /// and any processor.
-pub fn histories<O: Observer<f64> + Send>(
-    cases: &[Analysis<'_, f64>],
+pub fn histories<O: Observer + Send>(
+    cases: &[Analysis<'_>],
     observer: impl Fn(usize) -> O + Sync,
-) -> Vec<(O, Finish<f64>)> {
-    let models: Vec<Model<f64>> = cases.iter().map(Analysis::model).collect();
+) -> Vec<(O, Finish)> {
+    let models: Vec<Model> = cases.iter().map(Analysis::model).collect();
     let next = AtomicUsize::new(0);
     let threads = rayon::current_num_threads().min(cases.len().div_ceil(WIDTH)).max(1);
-    let mut done: Vec<(usize, O, Finish<f64>)> = (0..threads)
+    let mut done: Vec<(usize, O, Finish)> = (0..threads)
         .into_par_iter()
         .with_max_len(1)
         .flat_map_iter(|_| {
@@ -49,18 +49,18 @@ pub fn histories<O: Observer<f64> + Send>(
 
 /// What one thread follows of them.
 struct Batch<'a, O, F> {
-    cases: &'a [Analysis<'a, f64>],
-    models: &'a [Model<f64>],
+    cases: &'a [Analysis<'a>],
+    models: &'a [Model],
     /// The next case that nobody follows yet.
     next: &'a AtomicUsize,
     observer: &'a F,
-    done: Vec<(usize, O, Finish<f64>)>,
+    done: Vec<(usize, O, Finish)>,
 }
 
 /// A history under way.
 struct Lane<'a, O> {
     index: usize,
-    run: TimeLoop<'a, f64>,
+    run: TimeLoop<'a>,
     observer: O,
     /// Size of the step to try (s).
     h: f64,
@@ -68,7 +68,7 @@ struct Lane<'a, O> {
     asked: bool,
 }
 
-impl<'a, O: Observer<f64>, F: Fn(usize) -> O> Batch<'a, O, F> {
+impl<'a, O: Observer, F: Fn(usize) -> O> Batch<'a, O, F> {
     fn follow(&mut self) {
         if let Some(step) = steps().first() {
             self.lanes(*step);
@@ -151,7 +151,7 @@ impl<'a, O: Observer<f64>, F: Fn(usize) -> O> Batch<'a, O, F> {
             };
             let begun = lane.run.begin(case.ground(), &mut lane.observer);
             match begun.and_then(|()| lane.run.plan(&mut lane.observer)) {
-                Ok(h) if case.control.side_by_side() => return Some(Lane { h, ..lane }),
+                Ok(h) if case.control.skip_open => return Some(Lane { h, ..lane }),
                 Ok(h) => {
                     let outcome = lane.run.go_on(h, &mut lane.observer);
                     self.end(lane, outcome);

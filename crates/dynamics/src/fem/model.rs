@@ -24,7 +24,7 @@ use super::element::{Dampers, Elements, TendonElement};
 use crate::spring::{Chain, Springs};
 use rocking::{
     members::{self, Members},
-    scalar::{GRAVITY, Scalar, sin_cos},
+    scalar::{GRAVITY, sin_cos},
     structure::Body,
 };
 
@@ -52,26 +52,26 @@ pub(crate) const fn az(i: usize) -> usize {
 }
 
 /// A vector of the seven coordinates.
-pub(crate) type Vector<S> = [S; N];
+pub(crate) type Vector = [f64; N];
 
 /// Positions and velocities.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct State<S> {
-    pub q: Vector<S>,
-    pub v: Vector<S>,
+pub(crate) struct State {
+    pub q: Vector,
+    pub v: Vector,
 }
 
 /// Sine and cosine of the rotation.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Pose<S> {
-    pub sin: S,
-    pub cos: S,
+pub(crate) struct Pose {
+    pub sin: f64,
+    pub cos: f64,
 }
 
-impl<S: Scalar> Pose<S> {
+impl Pose {
     /// Of the rotation in these coordinates.
     #[inline(always)]
-    pub(crate) fn of(q: &Vector<S>) -> Self {
+    pub(crate) fn of(q: &Vector) -> Self {
         let (sin, cos) = sin_cos(q[TH]);
         Self { sin, cos }
     }
@@ -90,27 +90,27 @@ const MASSLESS_ROTATION: f64 = 2e-3;
 
 /// Body and springs, ready to compute with.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Model<S> {
-    pub body: Body<S>,
-    pub springs: Springs<Chain<S>>,
+pub(crate) struct Model {
+    pub body: Body<f64>,
+    pub springs: Springs<Chain>,
     /// Inertia of the translation (kg): the mass, and I_cg/R^2 when the rotation is massless.
-    pub translation: S,
+    pub translation: f64,
     /// Inertia of the rotation (kg m2); zero when massless.
-    pub rotation: S,
+    pub rotation: f64,
     /// What a pressing foot can take along the ground.
-    pub law: ContactLaw<S>,
+    pub law: ContactLaw,
     /// Dampers, tendon; none of a body on its springs alone.
-    pub elements: Elements<S>,
+    pub elements: Elements,
     /// Solve nothing for an open foot's contact (`Control::skip_open`).
     pub skip_open: bool,
 }
 
-impl<S: Scalar> Model<S> {
-    pub(crate) fn new(body: &Body<S>, springs: &Springs<Chain<S>>) -> Self {
+impl Model {
+    pub(crate) fn new(body: &Body<f64>, springs: &Springs<Chain>) -> Self {
         let r = body.radius();
         let added = body.inertia / (r * r);
-        let (translation, rotation) = if added.re() < MASSLESS_ROTATION * body.mass.re() {
-            (body.mass + added, S::zero())
+        let (translation, rotation) = if added < MASSLESS_ROTATION * body.mass {
+            (body.mass + added, 0.0)
         } else {
             (body.mass, body.inertia)
         };
@@ -129,9 +129,9 @@ impl<S: Scalar> Model<S> {
     /// A body with members on its springs. The tendon is stressed so that its tension in the
     /// settled structure is its pretension.
     pub(crate) fn with_members(
-        body: &Body<S>,
-        springs: &Springs<Chain<S>>,
-        members: &Members<S>,
+        body: &Body<f64>,
+        springs: &Springs<Chain>,
+        members: &Members,
     ) -> Self {
         let mut model = Self::new(body, springs);
         if let Some(friction) = members.friction {
@@ -140,9 +140,9 @@ impl<S: Scalar> Model<S> {
             model.law = ContactLaw::Coulomb { coefficient: friction.coefficient };
             return model;
         }
-        if let Some(damper) = members.damper.filter(|damper| damper.c.re() > 0.0) {
+        if let Some(damper) = members.damper.filter(|damper| damper.c > 0.0) {
             model.elements.dampers = Some(Dampers::new(damper.c, body));
-            if body.inertia.re() > 0.0 {
+            if body.inertia > 0.0 {
                 // dampers let a rotation without inertia neither follow the contact forces at once
                 // nor keep its rate
                 (model.translation, model.rotation) = (body.mass, body.inertia);
@@ -165,37 +165,13 @@ impl<S: Scalar> Model<S> {
 
     /// Whether the rotation follows the contact forces without inertia.
     pub(super) fn massless(&self) -> bool {
-        self.rotation.re() == 0.0
-    }
-
-    /// The model without derivatives.
-    pub(crate) fn real(&self) -> Model<f64> {
-        let chain =
-            |c: &Chain<S>| Chain { k1: c.k1.re(), k2: c.k2.re(), m2: c.m2.re(), c: c.c.re() };
-        let Body { mass, half_width, height, inertia } = self.body;
-        Model {
-            body: Body {
-                mass: mass.re(),
-                half_width: half_width.re(),
-                height: height.re(),
-                inertia: inertia.re(),
-            },
-            springs: Springs {
-                vertical: chain(&self.springs.vertical),
-                horizontal: chain(&self.springs.horizontal),
-            },
-            translation: self.translation.re(),
-            rotation: self.rotation.re(),
-            law: self.law.real(),
-            elements: self.elements.real(),
-            skip_open: self.skip_open,
-        }
+        self.rotation == 0.0
     }
 
     /// Position of foot i relative to where it stood, with the derivatives by theta: (p_x, p_z,
     /// dp_x, dp_z).
     #[inline(always)]
-    pub(crate) fn foot(&self, i: usize, q: &Vector<S>, sin: S, cos: S) -> (S, S, S, S) {
+    pub(crate) fn foot(&self, i: usize, q: &Vector, sin: f64, cos: f64) -> (f64, f64, f64, f64) {
         let sb = self.body.half_width * SIDE[i];
         let h = self.body.height;
         let one_minus_cos = sin * sin / (cos + 1.0);
@@ -205,39 +181,39 @@ impl<S: Scalar> Model<S> {
     }
 
     /// Compression of foot i's gap, a_z - p_z: positive when the foot presses (m).
-    pub(crate) fn compression(&self, i: usize, q: &Vector<S>) -> S {
+    pub(crate) fn compression(&self, i: usize, q: &Vector) -> f64 {
         self.compression_at(&Pose::of(q), i, q)
     }
 
     /// The same where the rotation's sine and cosine are known.
     #[inline(always)]
-    pub(crate) fn compression_at(&self, pose: &Pose<S>, i: usize, q: &Vector<S>) -> S {
+    pub(crate) fn compression_at(&self, pose: &Pose, i: usize, q: &Vector) -> f64 {
         q[az(i)] - self.foot(i, q, pose.sin, pose.cos).1
     }
 
     /// The compression (m) and its derivative by theta (m).
-    pub(crate) fn compression_and_slope(&self, i: usize, q: &Vector<S>) -> (S, S) {
+    pub(crate) fn compression_and_slope(&self, i: usize, q: &Vector) -> (f64, f64) {
         let Pose { sin, cos } = Pose::of(q);
         let (_, pz, _, pz_th) = self.foot(i, q, sin, cos);
         (q[az(i)] - pz, -pz_th)
     }
 
     /// Rate of the compression (m/s).
-    pub(crate) fn compression_rate(&self, i: usize, state: &State<S>) -> S {
+    pub(crate) fn compression_rate(&self, i: usize, state: &State) -> f64 {
         let Pose { sin, cos } = Pose::of(&state.q);
         let pz_th = self.foot(i, &state.q, sin, cos).3;
         state.v[az(i)] - state.v[Z] - pz_th * state.v[TH]
     }
 
     /// Upward velocity of foot i (m/s).
-    pub(crate) fn foot_rate(&self, i: usize, state: &State<S>) -> S {
+    pub(crate) fn foot_rate(&self, i: usize, state: &State) -> f64 {
         let Pose { sin, cos } = Pose::of(&state.q);
         let pz_th = self.foot(i, &state.q, sin, cos).3;
         state.v[Z] + pz_th * state.v[TH]
     }
 
     /// Velocity at which foot i slips over the ground while it does so to this side (m/s).
-    pub(crate) fn slip_rate(&self, i: usize, q: &Vector<S>, v: &Vector<S>, side: f64) -> S {
+    pub(crate) fn slip_rate(&self, i: usize, q: &Vector, v: &Vector, side: f64) -> f64 {
         let Pose { sin, cos } = Pose::of(q);
         let (_, _, px_th, pz_th) = self.foot(i, q, sin, cos);
         let Springs { vertical, horizontal } = &self.springs;
@@ -248,38 +224,33 @@ impl<S: Scalar> Model<S> {
     }
 
     /// The anchor that leaves foot i's horizontal spring without force where it stands now (m).
-    pub(crate) fn anchor_here(&self, i: usize, q: &Vector<S>) -> S {
+    pub(crate) fn anchor_here(&self, i: usize, q: &Vector) -> f64 {
         let Pose { sin, cos } = Pose::of(q);
         self.foot(i, q, sin, cos).0 - q[ax(i)]
     }
 
     /// Contact forces and kinematics of both feet.
     #[inline(always)]
-    pub(crate) fn contact(&self, q: &Vector<S>, feet: &[Foot<S>; 2]) -> [FootForce<S>; 2] {
+    pub(crate) fn contact(&self, q: &Vector, feet: &[Foot; 2]) -> [FootForce; 2] {
         self.contact_at(&Pose::of(q), q, feet)
     }
 
     /// The same where the rotation's sine and cosine are known.
     #[inline(always)]
-    pub(crate) fn contact_at(
-        &self,
-        pose: &Pose<S>,
-        q: &Vector<S>,
-        feet: &[Foot<S>; 2],
-    ) -> [FootForce<S>; 2] {
+    pub(crate) fn contact_at(&self, pose: &Pose, q: &Vector, feet: &[Foot; 2]) -> [FootForce; 2] {
         [self.foot_force(pose, 0, q, &feet[0]), self.foot_force(pose, 1, q, &feet[1])]
     }
 
     #[inline(always)]
-    fn foot_force(&self, pose: &Pose<S>, i: usize, q: &Vector<S>, foot: &Foot<S>) -> FootForce<S> {
+    fn foot_force(&self, pose: &Pose, i: usize, q: &Vector, foot: &Foot) -> FootForce {
         let (px, pz, px_th, pz_th) = self.foot(i, q, pose.sin, pose.cos);
         let press = || (q[az(i)] - pz) * self.springs.vertical.k1;
-        let vertical = if foot.closed() { press() } else { S::zero() };
+        let vertical = if foot.closed() { press() } else { 0.0 };
         // the law first: where no foot can slip, lanes of histories must not branch on how one does
         let horizontal = match (&self.law, foot.contact) {
             (ContactLaw::Coulomb { .. }, Contact::Slip(side)) => self.law.slipping(press(), side),
             _ if foot.holds() => (q[ax(i)] + foot.anchor - px) * self.springs.horizontal.k1,
-            _ => S::zero(),
+            _ => 0.0,
         };
         FootForce { px_th, pz_th, horizontal, vertical }
     }
@@ -288,11 +259,11 @@ impl<S: Scalar> Model<S> {
     #[inline(always)]
     pub(crate) fn forces(
         &self,
-        q: &Vector<S>,
-        v: &Vector<S>,
-        feet: &[Foot<S>; 2],
-        ground: [S; 2],
-    ) -> Vector<S> {
+        q: &Vector,
+        v: &Vector,
+        feet: &[Foot; 2],
+        ground: [f64; 2],
+    ) -> Vector {
         self.forces_at(&Pose::of(q), q, v, feet, ground)
     }
 
@@ -300,17 +271,17 @@ impl<S: Scalar> Model<S> {
     #[inline(always)]
     pub(crate) fn forces_at(
         &self,
-        pose: &Pose<S>,
-        q: &Vector<S>,
-        v: &Vector<S>,
-        feet: &[Foot<S>; 2],
-        [ground, up]: [S; 2],
-    ) -> Vector<S> {
+        pose: &Pose,
+        q: &Vector,
+        v: &Vector,
+        feet: &[Foot; 2],
+        [ground, up]: [f64; 2],
+    ) -> Vector {
         let Springs { vertical, horizontal } = &self.springs;
         let contact = self.contact_at(pose, q, feet);
         let [l, r] = &contact;
         let m = self.body.mass;
-        let mut f = [S::zero(); N];
+        let mut f = [0.0; N];
         f[X] = l.horizontal + r.horizontal - m * ground;
         f[Z] = l.vertical + r.vertical - m * (up + GRAVITY);
         // each foot's part by itself, so that a mirrored case gives the mirrored history to the
@@ -332,14 +303,14 @@ impl<S: Scalar> Model<S> {
     }
 
     /// Masses of the seven coordinates [kg; kg m2 for theta].
-    pub(crate) fn masses(&self, feet: &[Foot<S>; 2]) -> Vector<S> {
+    pub(crate) fn masses(&self, feet: &[Foot; 2]) -> Vector {
         let (m, h, v) = (self.translation, self.springs.horizontal.m2, self.springs.vertical.m2);
         [m, m, self.rotational_inertia(feet), h, v, h, v]
     }
 
     /// In free flight a massless rotation keeps its rate, as the limit of a small I_cg does (no
     /// moment acts, so the value does not matter).
-    fn rotational_inertia(&self, feet: &[Foot<S>; 2]) -> S {
+    fn rotational_inertia(&self, feet: &[Foot; 2]) -> f64 {
         // dampers do turn it in flight
         let free = self.elements.dampers.is_none();
         if self.massless() && free && !feet[0].closed() && !feet[1].closed() {

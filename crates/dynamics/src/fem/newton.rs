@@ -13,7 +13,6 @@ pub(super) use super::condensed::Condensed;
 use super::model::{Contact, Foot, FootForce, Model, N, State, TH, Vector, X, Z, ax, az};
 use super::{coupled::Coupled, slipping::Slipping};
 use crate::spring::Springs;
-use rocking::scalar::Scalar;
 
 /// Both feet's chains, horizontal and vertical. They depend on the step's size and on what holds,
 /// on nothing else.
@@ -22,12 +21,7 @@ pub(super) struct Chains<T>(pub [[Condensed<T>; 2]; 2]);
 
 impl<T: Num + Copy> Chains<T> {
     #[inline(always)]
-    pub(crate) fn new<S: Scalar>(
-        model: &Model<S>,
-        feet: &[Foot<S>; 2],
-        s: T,
-        lift: &impl Fn(S) -> T,
-    ) -> Self {
+    pub(crate) fn new(model: &Model, feet: &[Foot; 2], s: T, lift: &impl Fn(f64) -> T) -> Self {
         let Springs { vertical: v, horizontal: h } = &model.springs;
         let left = [
             Condensed::new(h, feet[0].holds(), s, lift),
@@ -51,12 +45,12 @@ pub(super) struct Newton<T> {
 #[cfg(test)]
 impl<T: Num + Copy + Neg<Output = T>> Newton<T> {
     /// Factor at `state` for s = h lambda.
-    pub(crate) fn new<S: Scalar>(
-        model: &Model<S>,
-        state: &State<S>,
-        feet: &[Foot<S>; 2],
+    pub(crate) fn new(
+        model: &Model,
+        state: &State,
+        feet: &[Foot; 2],
         s: T,
-        lift: impl Fn(S) -> T,
+        lift: impl Fn(f64) -> T,
     ) -> Self {
         let chains = Chains::new(model, feet, s, &lift);
         let matrix = CondensedMatrix::new(&chains, model, state, feet, s, lift);
@@ -81,13 +75,13 @@ pub(super) enum CondensedMatrix<T> {
 impl<T: Num + Copy + Neg<Output = T>> CondensedMatrix<T> {
     /// Factor at `state` for s = h lambda.
     #[inline(always)]
-    pub(crate) fn new<S: Scalar>(
+    pub(crate) fn new(
         chains: &Chains<T>,
-        model: &Model<S>,
-        state: &State<S>,
-        feet: &[Foot<S>; 2],
+        model: &Model,
+        state: &State,
+        feet: &[Foot; 2],
         s: T,
-        lift: impl Fn(S) -> T,
+        lift: impl Fn(f64) -> T,
     ) -> Self {
         if !model.elements.is_empty() {
             return Self::Coupled(Box::new(Coupled::new(chains, model, state, feet, s, &lift)));
@@ -100,13 +94,13 @@ impl<T: Num + Copy + Neg<Output = T>> CondensedMatrix<T> {
 
     /// Factor for a body whose feet's forces are `contact`.
     #[inline(always)]
-    pub(crate) fn rigid<S: Scalar>(
+    pub(crate) fn rigid(
         chains: &Chains<T>,
-        model: &Model<S>,
-        contact: &[FootForce<S>; 2],
-        feet: &[Foot<S>; 2],
+        model: &Model,
+        contact: &[FootForce; 2],
+        feet: &[Foot; 2],
         s: T,
-        lift: impl Fn(S) -> T,
+        lift: impl Fn(f64) -> T,
     ) -> Self {
         let closed = feet.map(|foot| foot.closed() || !model.skip_open);
         Self::Rigid(Rigid::new(chains, contact, &model.masses(feet), closed, s, lift))
@@ -149,13 +143,13 @@ pub(super) struct Rigid<T> {
 impl<T: Num + Copy + Neg<Output = T>> Rigid<T> {
     /// Factor where the feet's forces are `contact`, for s = h lambda.
     #[inline(always)]
-    pub(crate) fn new<S: Scalar>(
+    pub(crate) fn new(
         chains: &Chains<T>,
-        contact: &[FootForce<S>; 2],
-        masses: &Vector<S>,
+        contact: &[FootForce; 2],
+        masses: &Vector,
         closed: [bool; 2],
         s: T,
-        lift: impl Fn(S) -> T,
+        lift: impl Fn(f64) -> T,
     ) -> Self {
         let mut shares = [[T::zero(); 5]; 2];
         let mut lever = [[T::zero(); 2]; 2];
@@ -240,11 +234,11 @@ impl<T: Num + Copy + Neg<Output = T>> Rigid<T> {
 /// A closed foot's share of the body's matrix, [xx, zz, tt, x_th, z_th], and its lever
 /// [dp_x/dtheta, dp_z/dtheta].
 #[inline(always)]
-pub(super) fn share<S: Scalar, T: Num + Copy>(
+pub(super) fn share<T: Num + Copy>(
     [h, v]: &[Condensed<T>; 2],
-    foot: &FootForce<S>,
+    foot: &FootForce,
     s: T,
-    lift: &impl Fn(S) -> T,
+    lift: &impl Fn(f64) -> T,
 ) -> ([T; 5], [T; 2]) {
     let [px, pz] = [lift(foot.px_th), lift(foot.pz_th)];
     // the turning lever arms: d2p_x = dp_z, d2p_z = -dp_x

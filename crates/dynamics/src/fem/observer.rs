@@ -6,7 +6,6 @@ use super::{
     energy::Energy,
     model::{Foot, Model, State, TH, X, Z},
 };
-use rocking::scalar::Scalar;
 
 /// A foot's change of contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,44 +17,44 @@ pub enum Change {
 }
 
 /// What a run shows while it goes.
-pub struct View<'a, S> {
+pub struct View<'a> {
     /// Time (s).
-    pub time: S,
-    pub(crate) model: &'a Model<S>,
-    pub(crate) state: &'a State<S>,
-    pub(crate) feet: &'a [Foot<S>; 2],
+    pub time: f64,
+    pub(crate) model: &'a Model,
+    pub(crate) state: &'a State,
+    pub(crate) feet: &'a [Foot; 2],
     /// Energy account so far.
-    pub energy: &'a Energy<S>,
+    pub energy: &'a Energy,
 }
 
-impl<S: Scalar> View<'_, S> {
+impl View<'_> {
     /// Horizontal displacement of the centre of mass (m).
-    pub fn x(&self) -> S {
+    pub fn x(&self) -> f64 {
         self.state.q[X]
     }
 
     /// Horizontal velocity of the centre of mass (m/s).
-    pub fn speed(&self) -> S {
+    pub fn speed(&self) -> f64 {
         self.state.v[X]
     }
 
     /// Vertical velocity of the centre of mass, positive upwards (m/s).
-    pub fn climb(&self) -> S {
+    pub fn climb(&self) -> f64 {
         self.state.v[Z]
     }
 
     /// Vertical displacement of the centre of mass from the unstressed position (m).
-    pub fn z(&self) -> S {
+    pub fn z(&self) -> f64 {
         self.state.q[Z]
     }
 
     /// Rotation (rad).
-    pub fn theta(&self) -> S {
+    pub fn theta(&self) -> f64 {
         self.state.q[TH]
     }
 
     /// Rotation rate (rad/s).
-    pub fn theta_rate(&self) -> S {
+    pub fn theta_rate(&self) -> f64 {
         self.state.v[TH]
     }
 
@@ -65,35 +64,35 @@ impl<S: Scalar> View<'_, S> {
     }
 
     /// Vertical force on foot i, positive while it presses (N).
-    pub fn vertical_force(&self, i: usize) -> S {
+    pub fn vertical_force(&self, i: usize) -> f64 {
         self.model.contact(&self.state.q, self.feet)[i].vertical
     }
 
     /// Upward velocity of foot i (m/s).
-    pub fn foot_speed(&self, i: usize) -> S {
+    pub fn foot_speed(&self, i: usize) -> f64 {
         self.model.foot_rate(i, self.state)
     }
 
     /// Kinetic energy of the body (J).
-    pub(crate) fn body_kinetic(&self) -> S {
+    pub(crate) fn body_kinetic(&self) -> f64 {
         self.model.body_kinetic(self.state)
     }
 }
 
 /// Receives a run's samples and events; may stop it.
-pub trait Observer<S: Scalar> {
+pub trait Observer {
     /// Called at every sample, the first at t = 0.
-    fn sample(&mut self, index: usize, view: &View<S>) -> ControlFlow<()>;
+    fn sample(&mut self, index: usize, view: &View) -> ControlFlow<()>;
     /// Called at the end of every accepted step, before an event that ends there changes the
     /// contact.
-    fn step(&mut self, _view: &View<S>) {}
+    fn step(&mut self, _view: &View) {}
     /// Called right after foot `foot` (0 left, 1 right) changed its contact.
-    fn event(&mut self, _foot: usize, _change: Change, _view: &View<S>) {}
+    fn event(&mut self, _foot: usize, _change: Change, _view: &View) {}
 }
 
 /// Lets a closure serve as an observer of samples.
-impl<S: Scalar, F: FnMut(usize, &View<S>) -> ControlFlow<()>> Observer<S> for F {
-    fn sample(&mut self, index: usize, view: &View<S>) -> ControlFlow<()> {
+impl<F: FnMut(usize, &View) -> ControlFlow<()>> Observer for F {
+    fn sample(&mut self, index: usize, view: &View) -> ControlFlow<()> {
         self(index, view)
     }
 }

@@ -21,45 +21,45 @@ use super::{
     energy::Energy,
     model::{Foot, Model, State, Vector, Z},
     observer::{Observer, View},
-    step::{Ground, Request, Stages, Stepper, no_guess},
+    step::{Ground, NO_GUESS, Request, Stages, Stepper},
 };
 pub(super) use account::{Contacts, Scales, StepMeasures};
 use events::Locating;
 pub(crate) use ground::GroundMotion;
 use met::StepEvent;
-use rocking::scalar::{GRAVITY, Scalar, real};
+use rocking::scalar::GRAVITY;
 use span::Span;
 
 /// A history in the making.
-pub(crate) struct TimeLoop<'a, S> {
-    pub model: &'a Model<S>,
-    motion: GroundMotion<'a, S>,
+pub(crate) struct TimeLoop<'a> {
+    pub model: &'a Model,
+    motion: GroundMotion<'a>,
     /// The interval between two samples that is crossed, or that comes next.
     interval: usize,
     /// Whether it is under way.
     crossing: bool,
     /// Time since its start (s).
-    t: S,
+    t: f64,
     /// Ground acceleration from its start on, and from now on.
-    ground: Ground<S>,
-    here: Ground<S>,
+    ground: Ground,
+    here: Ground,
     /// The step over several samples under way.
     spanning: Option<Span>,
     /// By how far the parabola is late at the samples within it (m).
-    late: [S; span::MOST],
+    late: [f64; span::MOST],
     /// Its rate (m/s).
-    late_rate: [S; span::MOST],
+    late_rate: [f64; span::MOST],
     /// Displacement of the mass per unit acceleration on the springs (s2).
     compliance: f64,
     /// The sample up to which steps over several samples may go: an event comes after it.
     event_by: usize,
     /// The event that the step under way is repeated for.
-    locating: Option<Locating<S>>,
-    stepper: Stepper<'a, S>,
+    locating: Option<Locating>,
+    stepper: Stepper<'a>,
     control: Control,
-    state: State<S>,
-    feet: [Foot<S>; 2],
-    energy: Energy<S>,
+    state: State,
+    feet: [Foot; 2],
+    energy: Energy,
     /// Largest energy seen (J), the scale of the account.
     scale: f64,
     /// Static compression of k1 under the weight (m), the scale of contact.
@@ -73,7 +73,7 @@ pub(crate) struct TimeLoop<'a, S> {
     /// What a step's local error may be, in these scales.
     error: f64,
     /// First guess of the next step's acceleration.
-    guess: Vector<S>,
+    guess: Vector,
     /// Factor by which an iteration of the next step is expected to reduce the error; 1 if unknown.
     rate: f64,
     /// When each foot last opened (s).
@@ -93,31 +93,27 @@ pub(crate) struct TimeLoop<'a, S> {
     pub work: Work,
 }
 
-impl<'a, S: Scalar> TimeLoop<'a, S> {
-    pub(crate) fn new(
-        model: &'a Model<S>,
-        start: (State<S>, [Foot<S>; 2]),
-        control: Control,
-    ) -> Self {
+impl<'a> TimeLoop<'a> {
+    pub(crate) fn new(model: &'a Model, start: (State, [Foot; 2]), control: Control) -> Self {
         let (state, feet) = start;
         let stored = model.energy(&state, &feet);
-        let weight = model.body.mass.re() * GRAVITY;
-        let compression = weight / model.springs.vertical.k1.re();
+        let weight = model.body.mass * GRAVITY;
+        let compression = weight / model.springs.vertical.k1;
         // of the standing body: energy at rest, less than a thousandth of which means nothing
         let settled = model.settled();
-        let rest = model.energy(&settled.0, &settled.1).re();
-        let scale = (stored.re() - rest).abs().max(1e-3 * rest.abs());
+        let rest = model.energy(&settled.0, &settled.1);
+        let scale = (stored - rest).abs().max(1e-3 * rest.abs());
         Self {
             model,
-            motion: GroundMotion { dt: 0.0, accel: &[], vertical: &[], scale: S::one() },
+            motion: GroundMotion { dt: 0.0, accel: &[], vertical: &[], scale: 1.0 },
             interval: 0,
             crossing: false,
-            t: S::zero(),
+            t: 0.0,
             ground: Ground::still(),
             here: Ground::still(),
             spanning: None,
-            late: [S::zero(); span::MOST],
-            late_rate: [S::zero(); span::MOST],
+            late: [0.0; span::MOST],
+            late_rate: [0.0; span::MOST],
             compliance: span::compliance(model),
             event_by: usize::MAX,
             locating: None,
@@ -129,31 +125,31 @@ impl<'a, S: Scalar> TimeLoop<'a, S> {
             scale,
             compression,
             settling: (compression / GRAVITY).sqrt(),
-            rounding: 8.0 * f64::EPSILON * model.body.radius().re(),
+            rounding: 8.0 * f64::EPSILON * model.body.radius(),
             scales: Scales::of(model),
             error: allowed_error(control.tolerance),
-            guess: no_guess(),
+            guess: NO_GUESS,
             rate: 1.0,
             opened: [f64::NEG_INFINITY; 2],
             let_go: [0.0; 2],
             leant_on: [0.0; 2],
             h: f64::INFINITY,
-            balanced: state.q[Z].re().is_finite() && model.in_balance(&state, &feet),
+            balanced: state.q[Z].is_finite() && model.in_balance(&state, &feet),
             turns: 0,
             resting: false,
             work: Work::default(),
         }
     }
 
-    fn view(&self, time: S) -> View<'_, S> {
+    fn view(&self, time: f64) -> View<'_> {
         View { time, model: self.model, state: &self.state, feet: &self.feet, energy: &self.energy }
     }
 
     /// Follow a motion of the ground to its end.
     pub(crate) fn follow(
         &mut self,
-        motion: GroundMotion<'a, S>,
-        observer: &mut impl Observer<S>,
+        motion: GroundMotion<'a>,
+        observer: &mut dyn Observer,
     ) -> HistoryOutcome {
         let begun = self.begin(motion, observer);
         match begun.and_then(|()| self.plan(observer)) {
@@ -163,7 +159,7 @@ impl<'a, S: Scalar> TimeLoop<'a, S> {
     }
 
     /// Go on to the motion's end, with a step of size h (s) first.
-    pub(crate) fn go_on(&mut self, mut h: S, observer: &mut impl Observer<S>) -> HistoryOutcome {
+    pub(crate) fn go_on(&mut self, mut h: f64, observer: &mut dyn Observer) -> HistoryOutcome {
         let mut stages = Stages::none();
         loop {
             let converged = self.attempt(h, &mut stages);
@@ -187,8 +183,8 @@ impl<'a, S: Scalar> TimeLoop<'a, S> {
     /// Set out on a motion and show the first sample; the outcome if there is nothing to follow.
     pub(crate) fn begin(
         &mut self,
-        motion: GroundMotion<'a, S>,
-        observer: &mut impl Observer<S>,
+        motion: GroundMotion<'a>,
+        observer: &mut dyn Observer,
     ) -> Result<(), HistoryOutcome> {
         self.motion = motion;
         if self.motion.accel.is_empty() {
@@ -200,12 +196,12 @@ impl<'a, S: Scalar> TimeLoop<'a, S> {
     fn show_sample(
         &mut self,
         index: usize,
-        observer: &mut impl Observer<S>,
+        observer: &mut dyn Observer,
     ) -> Result<(), HistoryOutcome> {
         let time = index as f64 * self.motion.dt;
         self.interval = index;
         self.crossing = false;
-        match observer.sample(index, &self.view(real(time))) {
+        match observer.sample(index, &self.view(time)) {
             ControlFlow::Break(()) => Err(HistoryOutcome::Stopped { time }),
             ControlFlow::Continue(()) => Ok(()),
         }
@@ -213,12 +209,12 @@ impl<'a, S: Scalar> TimeLoop<'a, S> {
 
     /// Size of the next step to try, past samples and rests; the outcome once the history has
     /// ended.
-    pub(crate) fn plan(&mut self, observer: &mut impl Observer<S>) -> Result<S, HistoryOutcome> {
+    pub(crate) fn plan(&mut self, observer: &mut dyn Observer) -> Result<f64, HistoryOutcome> {
         let dt = self.motion.dt;
         loop {
             if self.crossing {
                 let left = -self.t + dt;
-                if left.re() > 1e-13 * dt {
+                if left > 1e-13 * dt {
                     return self.next_step(left);
                 }
                 self.show_sample(self.interval + 1, observer)?;
@@ -228,21 +224,21 @@ impl<'a, S: Scalar> TimeLoop<'a, S> {
             }
             self.ground = self.motion.ground(self.interval);
             if self.rests() {
-                observer.step(&self.view(real(self.interval as f64 * dt + dt)));
+                observer.step(&self.view(self.interval as f64 * dt + dt));
                 self.show_sample(self.interval + 1, observer)?;
             } else {
                 self.check(self.start_of_interval())?;
                 if let Some(size) = self.span() {
                     return Ok(size);
                 }
-                (self.t, self.crossing) = (S::zero(), true);
+                (self.t, self.crossing) = (0.0, true);
             }
         }
     }
 
     /// The next step, `left` being left of the interval between two samples.
-    fn next_step(&mut self, left: S) -> Result<S, HistoryOutcome> {
-        self.check(self.start_of_interval() + self.t.re())?;
+    fn next_step(&mut self, left: f64) -> Result<f64, HistoryOutcome> {
+        self.check(self.start_of_interval() + self.t)?;
         self.here = self.ground.from(self.t);
         self.locating = None;
         Ok(self.next_size(left))
@@ -265,19 +261,19 @@ impl<'a, S: Scalar> TimeLoop<'a, S> {
     }
 
     /// The next step: what the account allows, never past the sample, and no sliver left over.
-    fn next_size(&self, left: S) -> S {
-        let l = left.re();
+    fn next_size(&self, left: f64) -> f64 {
+        let l = left;
         if self.h >= 0.999 * l {
             left
         } else if self.h > 0.5 * l {
             left * 0.5
         } else {
-            real(self.h)
+            self.h
         }
     }
 
     /// What is asked of a step of size h.
-    fn request(&self, h: S) -> Request<S> {
+    fn request(&self, h: f64) -> Request {
         // a share of what presses the feet that the energy account would not notice
         let share = (1e3 * self.control.tolerance).clamp(1e-7, 1e-3);
         let tolerance = (share * self.compression).max(self.rounding);
@@ -287,30 +283,25 @@ impl<'a, S: Scalar> TimeLoop<'a, S> {
             ground: self.here,
             guess: if spans { self.pendulum(h) } else { [self.guess; 3] },
             tolerance,
-            extra: self.control.extra_iterations,
             rate: self.rate,
-            turning: spans.then(|| self.turning(h.re(), tolerance)),
+            turning: spans.then(|| self.turning(h, tolerance)),
         }
     }
 
     /// Hand over what a step of size h needs: start, contacts, what is asked, and what rounding
     /// alone may make of an iteration (m).
-    pub(crate) fn submit(
-        &self,
-        h: S,
-        take: impl FnOnce(&State<S>, &[Foot<S>; 2], &Request<S>, f64),
-    ) {
+    pub(crate) fn submit(&self, h: f64, take: impl FnOnce(&State, &[Foot; 2], &Request, f64)) {
         take(&self.state, &self.feet, &self.request(h), self.stepper.rounding);
     }
 
     /// Take a step of size h into `stages`; whether it converges.
-    pub(crate) fn attempt(&mut self, h: S, stages: &mut Stages<S>) -> bool {
+    pub(crate) fn attempt(&mut self, h: f64, stages: &mut Stages) -> bool {
         let request = self.request(h);
         self.stepper.step(&self.state, &self.feet, &request, stages)
     }
 
     /// How it ended, and what it cost.
-    pub(crate) fn finish(&self, outcome: HistoryOutcome) -> Finish<S> {
+    pub(crate) fn finish(&self, outcome: HistoryOutcome) -> Finish {
         Finish { outcome, work: self.work, energy: self.energy, energy_scale: self.scale }
     }
 }

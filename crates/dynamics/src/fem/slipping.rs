@@ -9,7 +9,6 @@ use std::ops::Sub;
 use num_traits::Num;
 
 use super::model::{Contact, Foot, Model, N, State, TH, X, Z, ax, az};
-use rocking::scalar::Scalar;
 
 /// Absorbers first, the rotation last: each pivot then has a mass, or stands on what is left of
 /// one.
@@ -20,12 +19,12 @@ pub(super) struct Slipping<T>([[T; N]; N]);
 
 impl<T: Num + Copy> Slipping<T> {
     /// Factor at `state` for s = h lambda.
-    pub(crate) fn new<S: Scalar>(
-        model: &Model<S>,
-        state: &State<S>,
-        feet: &[Foot<S>; 2],
+    pub(crate) fn new(
+        model: &Model,
+        state: &State,
+        feet: &[Foot; 2],
         s: T,
-        lift: &impl Fn(S) -> T,
+        lift: &impl Fn(f64) -> T,
     ) -> Self {
         let mut matrix = [[T::zero(); N]; N];
         for (k, mass) in model.masses(feet).into_iter().enumerate() {
@@ -42,9 +41,9 @@ impl<T: Num + Copy> Slipping<T> {
             }
             // minus the slopes of H and N by the coordinates
             let (kh, kv) = (model.springs.horizontal.k1, model.springs.vertical.k1);
-            let mut of_n = [S::zero(); N];
+            let mut of_n = [0.0; N];
             (of_n[Z], of_n[TH], of_n[az(i)]) = (kv, kv * f.pz_th, -kv);
-            let mut of_h = [S::zero(); N];
+            let mut of_h = [0.0; N];
             match feet[i].contact {
                 Contact::Stick => (of_h[X], of_h[TH], of_h[ax(i)]) = (kh, kh * f.px_th, -kh),
                 Contact::Slip(side) => of_h = of_n.map(|n| model.law.slipping(n, side)),

@@ -13,39 +13,38 @@ use super::{
     radau::{A, C, GAMMA, position_weights},
     turning::{self, Turning},
 };
-use rocking::scalar::{Scalar, real};
 
 /// The stages of a converged step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stages<S> {
-    pub h: S,
+pub(super) struct Stages {
+    pub h: f64,
     /// Accelerations.
-    pub a: [Vector<S>; 3],
+    pub a: [Vector; 3],
     /// Positions; the last is the step's end.
-    pub q: [Vector<S>; 3],
+    pub q: [Vector; 3],
     /// Velocities.
-    pub v: [Vector<S>; 3],
+    pub v: [Vector; 3],
     pub iterations: usize,
     /// Factor by which an iteration reduced the error, measured if there were two.
     pub rate: f64,
 }
 
-impl<S: Scalar> Stages<S> {
+impl Stages {
     /// Of no step yet.
     pub(crate) fn none() -> Self {
-        let none = [[S::zero(); N]; 3];
-        Self { h: S::zero(), a: none, q: none, v: none, iterations: 0, rate: 1.0 }
+        let none = [[0.0; N]; 3];
+        Self { h: 0.0, a: none, q: none, v: none, iterations: 0, rate: 1.0 }
     }
 
     /// State at the end of the step.
-    pub(crate) fn end(&self) -> State<S> {
+    pub(crate) fn end(&self) -> State {
         State { q: self.q[2], v: self.v[2] }
     }
 
     /// Work of the base excitation and dissipation in the dashpots over the step, by the step's own
     /// quadrature (J).
-    pub(crate) fn work(&self, model: &Model<S>, feet: &[Foot<S>; 2], ground: &Ground<S>) -> (S, S) {
-        let (mut input, mut dissipated) = (S::zero(), S::zero());
+    pub(crate) fn work(&self, model: &Model, feet: &[Foot; 2], ground: &Ground) -> (f64, f64) {
+        let (mut input, mut dissipated) = (0.0, 0.0);
         for j in 0..3 {
             let weight = self.h * A[2][j];
             input += model.input_power(&self.v[j], ground.after(self.h, C[j])) * weight;
@@ -57,7 +56,7 @@ impl<S: Scalar> Stages<S> {
     /// Velocity at tau in 0..1 of the step that began at `start`: the cubic through that and the
     /// stages, the integral of their accelerations. The slope of [`Stages::position`] leaves out
     /// the start: it is a parabola, and errs by h^3 v'''/60 there.
-    pub(crate) fn velocity(&self, start: &State<S>, tau: f64) -> Vector<S> {
+    pub(crate) fn velocity(&self, start: &State, tau: f64) -> Vector {
         let [w0, w1, w2] = cubic::weights(tau);
         let [v0, v1, v2] = &self.v;
         std::array::from_fn(|k| {
@@ -67,7 +66,7 @@ impl<S: Scalar> Stages<S> {
     }
 
     /// Position on the collocation polynomial at tau in 0..1 of the step that began at `start`.
-    pub(crate) fn position(&self, start: &State<S>, tau: f64) -> Vector<S> {
+    pub(crate) fn position(&self, start: &State, tau: f64) -> Vector {
         let [w0, w1, w2] = position_weights(tau);
         let [v0, v1, v2] = &self.v;
         std::array::from_fn(|k| start.q[k] + self.h * (v0[k] * w0 + v1[k] * w1 + v2[k] * w2))
@@ -75,15 +74,13 @@ impl<S: Scalar> Stages<S> {
 }
 
 /// What a step is asked for: size, tolerance and where to begin the iteration.
-pub(super) struct Request<S> {
-    pub h: S,
-    pub ground: Ground<S>,
+pub(super) struct Request {
+    pub h: f64,
+    pub ground: Ground,
     /// First guess of the acceleration at every stage.
-    pub guess: [Vector<S>; 3],
+    pub guess: [Vector; 3],
     /// A displacement (m) below which an iteration's correction no longer matters.
     pub tolerance: f64,
-    /// Iterations to add after convergence, so that derivatives converge too.
-    pub extra: usize,
     /// The factor by which an iteration is expected to reduce the error, from the step before; 1 if
     /// unknown.
     pub rate: f64,
@@ -92,13 +89,8 @@ pub(super) struct Request<S> {
 }
 
 /// Takes steps of a model.
-///
-/// The Newton matrix is one of real numbers whatever the scalar is: the iteration makes derivatives
-/// converge as it does values, by the same factor, and a matrix times a dual number is cheap where
-/// two dual numbers are not.
-pub(super) struct Stepper<'a, S> {
-    model: &'a Model<S>,
-    real: Model<f64>,
+pub(super) struct Stepper<'a> {
+    model: &'a Model,
     /// Correction of an iteration that rounding alone may make (m): a gap rounded by some units in
     /// the last digit of R turns the body R/b times as far.
     pub rounding: f64,
@@ -119,20 +111,20 @@ struct Shared {
 /// A coordinate's correction at the stages, and what counts of it: of a body that turns about its
 /// foot, from the foot's place.
 #[inline(always)]
-fn counted<S: Scalar>(
+fn counted(
     k: usize,
-    mut delta: [S; 3],
-    turn: [S; 3],
+    mut delta: [f64; 3],
+    turn: [f64; 3],
     turning: Option<(Turning, [f64; 2])>,
     (turned, radius): (&[[f64; 2]; 3], f64),
-) -> ([S; 3], [f64; 3]) {
-    let mut counts = delta.map(|delta| delta.re());
+) -> ([f64; 3], [f64; 3]) {
+    let mut counts = delta;
     match turning {
         Some((_, lever)) if k == X || k == Z => {
             let carried = turning::carried(turn, [turned[0][k], turned[1][k], turned[2][k]]);
             for i in 0..3 {
                 delta[i] -= carried[i];
-                counts[i] += lever[k] * turn[i].re();
+                counts[i] += lever[k] * turn[i];
             }
         }
         Some((Turning { weight, .. }, _)) if k == TH => {
@@ -152,9 +144,9 @@ impl Shared {
     #[inline(always)]
     fn matrices(
         &self,
-        model: &Model<f64>,
-        (start, middle): (&Vector<f64>, &State<f64>),
-        feet: &[Foot<f64>; 2],
+        model: &Model,
+        (start, middle): (&Vector, &State),
+        feet: &[Foot; 2],
         turns: bool,
     ) -> Matrices {
         let (real, pair) = (self.h * GAMMA, self.h * EIGENVALUE);
@@ -172,20 +164,19 @@ impl Shared {
     }
 }
 
-impl<'a, S: Scalar> Stepper<'a, S> {
-    pub(crate) fn new(model: &'a Model<S>) -> Self {
-        let real = model.real();
-        let radius = real.body.radius();
-        let rounding = 8.0 * f64::EPSILON * radius * radius / real.body.half_width;
-        Self { model, real, rounding, chains: None, matrix: None }
+impl<'a> Stepper<'a> {
+    pub(crate) fn new(model: &'a Model) -> Self {
+        let radius = model.body.radius();
+        let rounding = 8.0 * f64::EPSILON * radius * radius / model.body.half_width;
+        Self { model, rounding, chains: None, matrix: None }
     }
 
     /// Condense the chains for this size and contact, unless the last step has.
-    fn condense(&mut self, h: f64, feet: &[Foot<f64>; 2]) {
+    fn condense(&mut self, h: f64, feet: &[Foot; 2]) {
         let contact = feet.map(|foot| foot.contact);
         if !self.chains.as_ref().is_some_and(|shared| shared.h == h && shared.contact == contact) {
-            let real = Chains::new(&self.real, feet, h * GAMMA, &|x| x);
-            let pair = Chains::new(&self.real, feet, h * EIGENVALUE, &complex);
+            let real = Chains::new(self.model, feet, h * GAMMA, &|x| x);
+            let pair = Chains::new(self.model, feet, h * EIGENVALUE, &complex);
             self.chains = Some(Shared { h, contact, real, pair });
         }
     }
@@ -193,33 +184,29 @@ impl<'a, S: Scalar> Stepper<'a, S> {
     /// Take the step into `s`; whether the iteration converges.
     pub(crate) fn step(
         &mut self,
-        start: &State<S>,
-        feet: &[Foot<S>; 2],
-        request: &Request<S>,
-        s: &mut Stages<S>,
+        start: &State,
+        feet: &[Foot; 2],
+        request: &Request,
+        s: &mut Stages,
     ) -> bool {
         let &Request { h, ground, guess, .. } = request;
         // The matrix is taken half way, where its error over the step is least.
-        let hr = h.re();
         let mut middle = State { q: [0.0; N], v: [0.0; N] };
         for k in 0..N {
-            middle.v[k] = start.v[k].re();
-            middle.q[k] = start.q[k].re() + hr * middle.v[k] * 0.5;
+            middle.v[k] = start.v[k];
+            middle.q[k] = start.q[k] + h * middle.v[k] * 0.5;
         }
-        let real_feet = feet.map(|foot| Foot { contact: foot.contact, anchor: foot.anchor.re() });
-        self.condense(hr, &real_feet);
+        self.condense(h, feet);
         let Some(shared) = &self.chains else { return false };
-        let start_q = start.q.map(|x| x.re());
+        let model = self.model;
         let (real_matrix, pair_matrix) =
-            shared.matrices(&self.real, (&start_q, &middle), &real_feet, request.turning.is_some());
+            shared.matrices(model, (&start.q, &middle), feet, request.turning.is_some());
         let real_matrix: &CondensedMatrix<f64> = self.matrix.insert(real_matrix);
 
-        let model = self.model;
         let masses = model.masses(feet);
-        let radius = self.real.body.radius();
+        let radius = model.body.radius();
         let grounds = C.map(|c| ground.after(h, c));
-        let mut convergence =
-            Convergence::new(request.tolerance, self.rounding, request.extra, request.rate);
+        let mut convergence = Convergence::new(request.tolerance, self.rounding, request.rate);
         let turning = match real_matrix {
             CondensedMatrix::Rigid(rigid) => {
                 request.turning.map(|turning| (turning, rigid.lever[turning.foot]))
@@ -236,8 +223,8 @@ impl<'a, S: Scalar> Stepper<'a, S> {
             }
 
             let (residual, turned) = s.residuals(model, feet, &masses, &grounds, turning);
-            let mut r0 = [S::zero(); N];
-            let mut r1 = [Complex::new(S::zero(), S::zero()); N];
+            let mut r0 = [0.0; N];
+            let mut r1 = [Complex::new(0.0, 0.0); N];
             for k in 0..N {
                 (r0[k], r1[k]) = modes([residual[0][k], residual[1][k], residual[2][k]]);
             }
@@ -254,17 +241,17 @@ impl<'a, S: Scalar> Stepper<'a, S> {
                     change = change.max(counts[i].abs());
                 }
             }
-            if !convergence.moved(change * (LARGEST * (h * h).re())) {
+            if !convergence.moved(change * (LARGEST * (h * h))) {
                 return false;
             }
         }
     }
 }
 
-impl<S: Scalar> Stages<S> {
+impl Stages {
     /// Displacements and velocities that go with the accelerations.
     #[inline(always)]
-    fn follow(&mut self, start: &State<S>) {
+    fn follow(&mut self, start: &State) {
         for i in 0..3 {
             for k in 0..N {
                 let a = [self.a[0][k], self.a[1][k], self.a[2][k]];
@@ -278,13 +265,13 @@ impl<S: Scalar> Stages<S> {
     #[inline(always)]
     fn residuals(
         &self,
-        model: &Model<S>,
-        feet: &[Foot<S>; 2],
-        masses: &Vector<S>,
-        grounds: &[[S; 2]; 3],
+        model: &Model,
+        feet: &[Foot; 2],
+        masses: &Vector,
+        grounds: &[[f64; 2]; 3],
         turning: Option<(Turning, [f64; 2])>,
-    ) -> ([Vector<S>; 3], [[f64; 2]; 3]) {
-        let mut residual = [[S::zero(); N]; 3];
+    ) -> ([Vector; 3], [[f64; 2]; 3]) {
+        let mut residual = [[0.0; N]; 3];
         let mut turned = [[0.0; 2]; 3];
         for i in 0..3 {
             let pose = Pose::of(&self.q[i]);
@@ -294,7 +281,7 @@ impl<S: Scalar> Stages<S> {
             }
             if let Some((Turning { foot, .. }, lever)) = turning {
                 let (_, _, px_th, pz_th) = model.foot(foot, &self.q[i], pose.sin, pose.cos);
-                turned[i] = [px_th.re() - lever[0], pz_th.re() - lever[1]];
+                turned[i] = [px_th - lever[0], pz_th - lever[1]];
                 let forces = [residual[i][X], residual[i][Z], residual[i][TH]];
                 residual[i][TH] = turning::moment(forces, turned[i]);
             }
@@ -303,7 +290,7 @@ impl<S: Scalar> Stages<S> {
     }
 }
 
-impl<S: Scalar> Stepper<'_, S> {
+impl Stepper<'_> {
     /// What the step just taken from `start` misses, estimated: displacements, and the velocities
     /// that go with them.
     ///
@@ -320,22 +307,20 @@ impl<S: Scalar> Stepper<'_, S> {
     /// start, so that a rotation without inertia is no special case.
     pub(crate) fn local_error(
         &self,
-        start: &State<S>,
-        feet: &[Foot<S>; 2],
-        ground: &Ground<S>,
-        s: &Stages<S>,
-    ) -> State<f64> {
+        start: &State,
+        feet: &[Foot; 2],
+        ground: &Ground,
+        s: &Stages,
+    ) -> State {
         let none = State { q: [0.0; N], v: [0.0; N] };
         let (Some(shared), Some(matrix)) = (&self.chains, &self.matrix) else { return none };
-        let root = s.h.re() * GAMMA;
+        let root = s.h * GAMMA;
         let per = root.recip();
-        let (q, v) = (start.q.map(|x| x.re()), start.v.map(|x| x.re()));
-        let d_q = std::array::from_fn(|k| embedded([0, 1, 2].map(|i| s.q[i][k].re()), q[k]));
-        let d_v = std::array::from_fn(|k| embedded([0, 1, 2].map(|i| s.v[i][k].re()), v[k]));
-        let feet = feet.map(|foot| Foot { contact: foot.contact, anchor: foot.anchor.re() });
-        let forces =
-            self.real.forces(&q, &d_q.map(|d: f64| -d * per), &feet, ground.start.map(|a| a.re()));
-        let right = error_right(root, &forces, &self.real.masses(&feet), &v, &d_q, &d_v);
+        let State { q, v } = start;
+        let d_q = std::array::from_fn(|k| embedded([0, 1, 2].map(|i| s.q[i][k]), q[k]));
+        let d_v = std::array::from_fn(|k| embedded([0, 1, 2].map(|i| s.v[i][k]), v[k]));
+        let forces = self.model.forces(q, &d_q.map(|d: f64| -d * per), feet, ground.start);
+        let right = error_right(root, &forces, &self.model.masses(feet), v, &d_q, &d_v);
         let e_q = matrix.solve(&shared.real, &right, |x, t| x * t);
         State { q: e_q, v: std::array::from_fn(|k| (e_q[k] - d_q[k]) * per - v[k]) }
     }
@@ -345,12 +330,12 @@ impl<S: Scalar> Stepper<'_, S> {
 #[inline(always)]
 pub(super) fn error_right(
     root: f64,
-    forces: &Vector<f64>,
-    masses: &Vector<f64>,
-    v: &Vector<f64>,
-    d_q: &Vector<f64>,
-    d_v: &Vector<f64>,
-) -> Vector<f64> {
+    forces: &Vector,
+    masses: &Vector,
+    v: &Vector,
+    d_q: &Vector,
+    d_v: &Vector,
+) -> Vector {
     let mut right = [0.0; N];
     for k in 0..N {
         right[k] = root * root * forces[k] + masses[k] * (root * v[k] + d_q[k] + root * d_v[k]);
@@ -360,6 +345,4 @@ pub(super) fn error_right(
 
 /// The acceleration everywhere zero: the guess after an event, when the old accelerations tell
 /// nothing.
-pub(super) fn no_guess<S: Scalar>() -> Vector<S> {
-    [real(0.0); N]
-}
+pub(super) const NO_GUESS: Vector = [0.0; N];

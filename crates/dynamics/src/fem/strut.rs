@@ -16,7 +16,7 @@
 //! of the mass, see `model`).
 
 use super::model::{Model, Pose, State, TH, X, Z, ax, az};
-use rocking::scalar::{GRAVITY, Scalar};
+use rocking::scalar::GRAVITY;
 
 /// What ends the trailing of a foot, each once it is positive.
 pub(super) struct Strut {
@@ -26,14 +26,14 @@ pub(super) struct Strut {
     pub lift: f64,
 }
 
-impl<S: Scalar> Model<S> {
+impl Model {
     /// Whether the body on one foot is a strut: no inertia, no member, no slip.
     pub(super) fn is_strut(&self) -> bool {
         self.massless() && self.is_plain()
     }
 
     /// Foot i as the only one near the ground.
-    pub(super) fn strut(&self, i: usize, state: &State<S>) -> Strut {
+    pub(super) fn strut(&self, i: usize, state: &State) -> Strut {
         let State { q, v } = state;
         let Pose { sin, cos } = Pose::of(q);
         let (_, _, px_th, pz_th) = self.foot(i, q, sin, cos);
@@ -42,7 +42,7 @@ impl<S: Scalar> Model<S> {
         let chain = &self.springs.vertical;
         let absorber = -(chain.k2 * q[az(i)] + chain.c * v[az(i)]) / chain.m2;
         let foot = -self.body.mass * GRAVITY / self.translation - px_th * v[TH] * v[TH];
-        Strut { press: (-apart / self.body.radius()).re(), lift: (foot - absorber).re() }
+        Strut { press: -apart / self.body.radius(), lift: foot - absorber }
     }
 }
 
@@ -57,16 +57,9 @@ mod tests {
     };
     use rocking::structure::Body;
 
-    fn model<S: Scalar>() -> Model<S> {
-        let real = |x: f64| S::from(x);
-        let chain =
-            |k1: f64| Chain { k1: real(k1), k2: real(0.3 * k1), m2: real(40.0), c: real(2e3) };
-        let body = Body {
-            mass: real(100.0),
-            half_width: real(1.2),
-            height: real(2.5),
-            inertia: real(0.0),
-        };
+    fn model() -> Model {
+        let chain = |k1: f64| Chain { k1, k2: 0.3 * k1, m2: 40.0, c: 2e3 };
+        let body = Body { mass: 100.0, half_width: 1.2, height: 2.5, inertia: 0.0 };
         Model::new(&body, &Springs { vertical: chain(1e6), horizontal: chain(3e6) })
     }
 
@@ -77,7 +70,7 @@ mod tests {
     /// numbers.
     #[test]
     fn it_presses_as_mass_and_absorber_come_nearer() {
-        let model = model::<f64>();
+        let model = model();
         for i in 0..2 {
             let (sin, cos) = Q[TH].sin_cos();
             let (_, _, px_th, pz_th) = model.foot(i, &Q, sin, cos);
@@ -94,7 +87,7 @@ mod tests {
     /// their motion.
     #[test]
     fn it_lifts_as_the_foot_in_flight_leaves_the_ground() {
-        let model = model::<f64>();
+        let model = model();
         let feet = [Foot { contact: Contact::Open, anchor: 0.0 }; 2];
         let (forces, masses) = (model.forces(&Q, &V, &feet, [0.0; 2]), model.masses(&feet));
         for i in 0..feet.len() {
@@ -114,7 +107,7 @@ mod tests {
     /// On one foot without horizontal force the rotation has no balance but N = 0.
     #[test]
     fn a_trailing_foot_takes_no_force() {
-        let model = model::<f64>();
+        let model = model();
         let mut state = State { q: Q, v: V };
         for i in 0..2 {
             let mut feet = [Foot { contact: Contact::Open, anchor: 0.0 }; 2];

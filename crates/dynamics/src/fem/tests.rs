@@ -1,4 +1,4 @@
-//! Tests of the finite element model against closed forms, limits, dual numbers and dense linear
+//! Tests of the finite element model against closed forms, limits, differences and dense linear
 //! algebra.
 
 mod forces;
@@ -10,7 +10,10 @@ mod statics;
 
 use std::f64::consts::TAU;
 
-use super::model::{Contact, Foot, Model, State};
+use nalgebra::SMatrix;
+use num_complex::Complex;
+
+use super::model::{Contact, Foot, Model, N, State, TH, Vector};
 use crate::spring::{Chain, Design, Springs};
 use rocking::structure::{Body, Structure};
 
@@ -22,21 +25,21 @@ fn body(share: f64) -> Body<f64> {
 }
 
 /// Springs of different chains in the two directions.
-fn springs() -> Springs<Chain<f64>> {
+fn springs() -> Springs<Chain> {
     let vertical = Design::from_kc(0.3, 0.1, 0.75, 20.0);
     let horizontal = Design::from_kc(1.7, 0.57, 1.86, 35.0);
     Springs { vertical, horizontal }.chains(Structure::paper().mass_kg)
 }
 
 /// All pairs of contacts, both feet anchored off centre.
-fn contacts() -> Vec<[Foot<f64>; 2]> {
+fn contacts() -> Vec<[Foot; 2]> {
     let all = [Contact::Open, Contact::Slide, Contact::Stick];
     let foot = |contact, anchor| Foot { contact, anchor };
     all.iter().flat_map(|&l| all.map(|r| [foot(l, 0.013), foot(r, -0.007)])).collect()
 }
 
 /// A state far from any symmetry: leaning, pressed, moving.
-fn state() -> State<f64> {
+fn state() -> State {
     State {
         q: [0.11, -0.02, 0.031, 0.004, -0.011, -0.003, -0.017],
         v: [0.3, -0.1, 0.02, 0.05, -0.2, 0.07, 0.13],
@@ -44,7 +47,7 @@ fn state() -> State<f64> {
 }
 
 /// Standing at rest on springs without damping.
-fn undamped(share: f64) -> (Model<f64>, State<f64>, [Foot<f64>; 2]) {
+fn undamped(share: f64) -> (Model, State, [Foot; 2]) {
     let mut springs = springs();
     springs.vertical.c = 0.0;
     springs.horizontal.c = 0.0;
@@ -56,4 +59,61 @@ fn undamped(share: f64) -> (Model<f64>, State<f64>, [Foot<f64>; 2]) {
 /// Angular frequency (1/s) of f (Hz).
 fn omega(hz: f64) -> f64 {
     TAU * hz
+}
+
+/// Slopes of a smooth function at zero, by central differences of the sixth order.
+pub(super) fn slopes<const M: usize>(step: f64, f: impl Fn(f64) -> [f64; M]) -> [f64; M] {
+    let pairs = [1.0, 2.0, 3.0].map(|k| (f(k * step), f(-k * step)));
+    let weights = [45.0, -9.0, 1.0];
+    std::array::from_fn(|i| {
+        let sum: f64 = pairs.iter().zip(weights).map(|((up, down), w)| w * (up[i] - down[i])).sum();
+        sum / (60.0 * step)
+    })
+}
+
+/// A step for coordinate j (m, rad): energies are quadratic in all but the rotation.
+pub(super) fn step(j: usize) -> f64 {
+    if j == TH { 2e-3 } else { 0.1 }
+}
+
+/// A vector with one of its components moved.
+pub(super) fn moved(x: &Vector, j: usize, by: f64) -> Vector {
+    let mut x = *x;
+    x[j] += by;
+    x
+}
+
+/// M + s C + s^2 K of the model at `state()`, with C = -df/dv and K = -df/dq by differences.
+fn dense<T: num_traits::Num + Copy + nalgebra::Scalar>(
+    model: &Model,
+    feet: &[Foot; 2],
+    s: T,
+    lift: impl Fn(f64) -> T,
+) -> SMatrix<T, N, N> {
+    let State { q, v } = state();
+    let mut matrix = SMatrix::<T, N, N>::from_element(T::zero());
+    let masses = model.masses(feet);
+    for j in 0..N {
+        let by_q = slopes(step(j), |t| model.forces(&moved(&q, j, t), &v, feet, [0.0; 2]));
+        let by_v = slopes(step(j), |t| model.forces(&q, &moved(&v, j, t), feet, [0.0; 2]));
+        for i in 0..N {
+            matrix[(i, j)] = T::zero() - s * (lift(by_v[i]) + s * lift(by_q[i]));
+        }
+        matrix[(j, j)] = matrix[(j, j)] + lift(masses[j]);
+    }
+    matrix
+}
+
+/// The largest part of `matrix` times `solution` less `right`, over the terms that make it.
+fn largest_residual(
+    matrix: &SMatrix<Complex<f64>, N, N>,
+    solution: &[Complex<f64>; N],
+    right: &[Complex<f64>; N],
+) -> f64 {
+    let of_row = |i: usize| {
+        let terms = (0..N).map(|j| matrix[(i, j)] * solution[j]);
+        let scale: f64 = terms.clone().map(|t| t.norm()).sum();
+        (terms.sum::<Complex<f64>>() - right[i]).norm() / scale
+    };
+    (0..N).map(of_row).fold(0.0, f64::max)
 }

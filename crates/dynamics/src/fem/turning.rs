@@ -21,7 +21,6 @@ use super::{
     contact::FootForce,
     radau::{A2, A2_INV},
 };
-use rocking::scalar::Scalar;
 
 /// The foot that a body turns about while it takes a step.
 #[derive(Clone, Copy, Debug)]
@@ -33,21 +32,21 @@ pub(super) struct Turning {
 
 /// The feet's forces at a step's start and their levers half way, from what they are at both.
 #[inline(always)]
-pub(super) fn contact<S: Scalar>([start, middle]: [[FootForce<S>; 2]; 2]) -> [FootForce<S>; 2] {
+pub(super) fn contact([start, middle]: [[FootForce; 2]; 2]) -> [FootForce; 2] {
     let at = |i: usize| FootForce { px_th: middle[i].px_th, pz_th: middle[i].pz_th, ..start[i] };
     [at(0), at(1)]
 }
 
 /// What is left of the moment at a stage where the lever differs by `turned`.
 #[inline(always)]
-pub(super) fn moment<S: Scalar>([x, z, th]: [S; 3], turned: [f64; 2]) -> S {
+pub(super) fn moment([x, z, th]: [f64; 3], turned: [f64; 2]) -> f64 {
     th - (x * turned[0] + z * turned[1])
 }
 
 /// What of a coordinate's accelerations at the stages comes from the turn, whose own are `th`,
 /// where the levers differ by `turned`.
 #[inline(always)]
-pub(super) fn carried<S: Scalar>(th: [S; 3], turned: [f64; 3]) -> [S; 3] {
+pub(super) fn carried(th: [f64; 3], turned: [f64; 3]) -> [f64; 3] {
     let at = |i: usize| (th[0] * A2[i][0] + th[1] * A2[i][1] + th[2] * A2[i][2]) * turned[i];
     let places = [at(0), at(1), at(2)];
     A2_INV.map(|[a, b, c]| places[0] * a + places[1] * b + places[2] * c)
@@ -60,7 +59,7 @@ mod tests {
         fem::{
             model::{Model, N, Pose, TH, X, Z},
             radau::C,
-            step::{Ground, Request, Stages, Stepper, no_guess},
+            step::{Ground, NO_GUESS, Request, Stages, Stepper},
         },
         spring::{Design, Springs},
     };
@@ -83,9 +82,8 @@ mod tests {
         let request = Request {
             h: 0.1,
             ground: Ground { start: [1.0, 0.0], slope: [-5.0, 0.0], curve: [0.0; 2] },
-            guess: [no_guess(); 3],
+            guess: [NO_GUESS; 3],
             tolerance: 1e-3 * compression,
-            extra: 0,
             rate: 1.0,
             turning: turns.then_some(Turning { foot: 1, weight: 1e-3 }),
         };

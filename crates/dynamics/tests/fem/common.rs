@@ -22,26 +22,26 @@ pub fn paper(share: f64) -> Structure {
 pub type Ratios = (f64, f64, f64);
 
 /// Chains of the given ratios at one Omega_n (Hz) for a mass (kg).
-pub fn chains(vertical: Ratios, horizontal: Ratios, hz: f64, mass: f64) -> Springs<Chain<f64>> {
+pub fn chains(vertical: Ratios, horizontal: Ratios, hz: f64, mass: f64) -> Springs<Chain> {
     let design = |(mu, k, c)| Design::from_kc(mu, k, c, hz);
     Springs { vertical: design(vertical), horizontal: design(horizontal) }.chains(mass)
 }
 
 /// Springs that land without rebound.
-pub fn plastic(hz: f64, mass: f64) -> Springs<Chain<f64>> {
+pub fn plastic(hz: f64, mass: f64) -> Springs<Chain> {
     chains((0.3, 0.1, 0.75), (0.3, 0.57, 1.86), hz, mass)
 }
 
 /// The ratios of the paper's Table 1 as recovered at one Omega_n (Hz) for a mass (kg): they bounce
 /// a lot.
-pub fn table_1(hz: f64, mass: f64) -> Springs<Chain<f64>> {
+pub fn table_1(hz: f64, mass: f64) -> Springs<Chain> {
     let Springs { vertical, horizontal } = Springs::table_1();
     let at = |design: Design<f64>| Design { omega_n_hz: hz, ..design };
     Springs { vertical: at(vertical), horizontal: at(horizontal) }.chains(mass)
 }
 
 /// Springs that bounce a little.
-pub fn lively(hz: f64, mass: f64) -> Springs<Chain<f64>> {
+pub fn lively(hz: f64, mass: f64) -> Springs<Chain> {
     chains((0.06, 0.41, 1.0), (0.18, 0.86, 6.2), hz, mass)
 }
 
@@ -55,7 +55,7 @@ pub fn el_centro() -> Record {
 /// A history from rest.
 pub fn settled(
     structure: &Structure,
-    springs: Springs<Chain<f64>>,
+    springs: Springs<Chain>,
     record: &Record,
     control: Control,
 ) -> History {
@@ -76,7 +76,7 @@ pub fn settled(
 /// Free rocking from a lean (rad) for n samples of dt (s).
 pub fn free(
     structure: &Structure,
-    springs: Springs<Chain<f64>>,
+    springs: Springs<Chain>,
     lean: f64,
     dt: f64,
     n: usize,

@@ -114,7 +114,7 @@ fn without_dampers_nothing_is_dissipated() {
             scale: 1.0,
             control: Control::default(),
         };
-        let finish: Finish<f64> = case.observe(&mut |_: usize, view: &View<f64>| {
+        let finish: Finish = case.observe(&mut |_: usize, view: &View| {
             samples += 1;
             assert!(view.x().is_finite() && view.z().is_finite());
             ControlFlow::Continue(())

@@ -20,8 +20,8 @@ use crate::common::{chains, el_centro, lively, paper, plastic};
 #[derive(Default, PartialEq, Debug)]
 struct Bits(Vec<u64>);
 
-impl Observer<f64> for Bits {
-    fn sample(&mut self, index: usize, view: &View<f64>) -> ControlFlow<()> {
+impl Observer for Bits {
+    fn sample(&mut self, index: usize, view: &View) -> ControlFlow<()> {
         let shown = [
             view.x(),
             view.z(),
@@ -35,17 +35,17 @@ impl Observer<f64> for Bits {
         ControlFlow::Continue(())
     }
 
-    fn step(&mut self, view: &View<f64>) {
+    fn step(&mut self, view: &View) {
         self.0.push(view.time.to_bits());
     }
 
-    fn event(&mut self, foot: usize, change: Change, view: &View<f64>) {
+    fn event(&mut self, foot: usize, change: Change, view: &View) {
         self.0.extend([foot as u64, change as u64, view.time.to_bits()]);
     }
 }
 
 /// Structures and springs, soft and stiff, ringing and not; one falls flat.
-fn models() -> Vec<(Body<f64>, Springs<Chain<f64>>)> {
+fn models() -> Vec<(Body<f64>, Springs<Chain>)> {
     let (frame, block) = (paper(0.0), Structure::block(2.0, 0.5, 1e3).unwrap());
     let stocky = Structure::a_frame(4.0, 3.4, 1e4).unwrap();
     let m = frame.mass_kg;
@@ -69,7 +69,7 @@ fn a_history_is_the_same_to_the_last_bit_in_any_company_and_on_any_number_of_thr
         })
         .collect();
     let up: Vec<f64> = (0..400).map(|i| 1.5 * (0.11 * f64::from(i)).sin()).collect();
-    let cases: Vec<Analysis<f64>> = records
+    let cases: Vec<Analysis> = records
         .iter()
         .enumerate()
         .map(|(i, record)| {

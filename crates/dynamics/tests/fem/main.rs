@@ -2,7 +2,6 @@
 
 mod accuracy;
 mod common;
-mod derivatives;
 mod edges;
 mod energy;
 mod extremes;

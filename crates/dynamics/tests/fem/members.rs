@@ -15,9 +15,9 @@ use crate::common::{el_centro, free, lively, paper, plastic, settled};
 
 fn run(
     structure: &Structure,
-    springs: Springs<Chain<f64>>,
+    springs: Springs<Chain>,
     record: &Record,
-    members: &Members<f64>,
+    members: &Members,
 ) -> (History, Demands) {
     let (dt, accel, control) = (record.dt, &record.accel[..], Control::default());
     Analysis {
@@ -34,7 +34,7 @@ fn run(
 }
 
 /// Members worth trying together and alone.
-fn kinds() -> Vec<Members<f64>> {
+fn kinds() -> Vec<Members> {
     let damper = Some(Damper { c: 1e6 });
     let tendon = Some(Tendon { stiffness: 2e6, pretension: 5e5 });
     vec![

@@ -9,7 +9,7 @@ use strong_motion::{ReadOptions, Record};
 
 use crate::common::{el_centro, lively, paper, plastic, settled};
 
-type Make = fn(f64, f64) -> Springs<Chain<f64>>;
+type Make = fn(f64, f64) -> Springs<Chain>;
 
 #[test]
 fn the_mirrored_record_gives_the_mirrored_history() {

@@ -33,7 +33,7 @@ fn frame(alpha: f64, share: f64) -> Structure {
 
 /// One vertical chain for every body, scaled by the mass that lands, M = 1 - (m R^2/I0) sin^2
 /// alpha, under horizontals `rho` times as stiff.
-fn landing(structure: &Structure, (mu, k, c): Ratios, rho: f64, hz: f64) -> Springs<Chain<f64>> {
+fn landing(structure: &Structure, (mu, k, c): Ratios, rho: f64, hz: f64) -> Springs<Chain> {
     let body = structure.body::<f64>();
     let point = body.mass * body.radius().powi(2);
     let landing = 1.0 - point / (point + body.inertia) * body.alpha().sin().powi(2);
@@ -43,11 +43,7 @@ fn landing(structure: &Structure, (mu, k, c): Ratios, rho: f64, hz: f64) -> Spri
 
 /// Histories of the first n motions of a suite, with Housner's NRMSE where that body neither rests
 /// nor overturns.
-fn suite(
-    structure: &Structure,
-    springs: Springs<Chain<f64>>,
-    n: usize,
-) -> Vec<(History, Option<f64>)> {
+fn suite(structure: &Structure, springs: Springs<Chain>, n: usize) -> Vec<(History, Option<f64>)> {
     let body = structure.body::<f64>();
     let records = synthetic::suite(n, 1, body.p_squared().sqrt(), body.alpha());
     let run = |record: strong_motion::Record| {

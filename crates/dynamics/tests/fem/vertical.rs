@@ -21,7 +21,7 @@ const STIFF: f64 = 1e5;
 
 /// A chain that hardly rebounds, scaled by the mass that lands, under horizontals 20 times as
 /// stiff.
-fn springs(body: &Body<f64>) -> Springs<Chain<f64>> {
+fn springs(body: &Body<f64>) -> Springs<Chain> {
     let point = body.mass * body.radius().powi(2);
     let landing = 1.0 - point / (point + body.inertia) * body.alpha().sin().powi(2);
     let hz = STIFF * body.p_squared().sqrt() / std::f64::consts::TAU;
@@ -31,7 +31,7 @@ fn springs(body: &Body<f64>) -> Springs<Chain<f64>> {
 
 fn simulate(
     body: Body<f64>,
-    springs: Springs<Chain<f64>>,
+    springs: Springs<Chain>,
     dt: f64,
     accel: &[f64],
     vertical: &[f64],

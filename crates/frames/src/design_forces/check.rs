@@ -25,10 +25,10 @@ pub(super) struct Variants {
 impl Variants {
     pub(crate) fn of(
         assembled: &Assembled,
-        springs: &[Springs<Chain<f64>>],
+        springs: &[Springs<Chain>],
         record: &Record,
     ) -> Result<Self, EquilibriumError> {
-        let follow = |frame: &Frame, springs: &[Springs<Chain<f64>>]| {
+        let follow = |frame: &Frame, springs: &[Springs<Chain>]| {
             follow(&assembled.structure, frame, springs, record)
         };
         let finer = assembled.structure.with_doubled_elements().map(|structure| {
@@ -53,7 +53,7 @@ impl Variants {
 pub(super) fn follow(
     structure: &ElasticStructure,
     frame: &Frame,
-    springs: &[Springs<Chain<f64>>],
+    springs: &[Springs<Chain>],
     record: &Record,
 ) -> Result<ElasticHistory, EquilibriumError> {
     ElasticAnalysis {
@@ -66,14 +66,14 @@ pub(super) fn follow(
 }
 
 /// Springs whose landing is the same but so many times as fast.
-pub(super) fn scaled(springs: &[Springs<Chain<f64>>], factor: f64) -> Vec<Springs<Chain<f64>>> {
-    let chain = |c: &Chain<f64>| Chain {
+pub(super) fn scaled(springs: &[Springs<Chain>], factor: f64) -> Vec<Springs<Chain>> {
+    let chain = |c: &Chain| Chain {
         k1: c.k1 * factor * factor,
         k2: c.k2 * factor * factor,
         c: c.c * factor,
         m2: c.m2,
     };
-    let both = |s: &Springs<Chain<f64>>| Springs {
+    let both = |s: &Springs<Chain>| Springs {
         vertical: chain(&s.vertical),
         horizontal: chain(&s.horizontal),
     };

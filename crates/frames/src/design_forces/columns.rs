@@ -66,7 +66,7 @@ impl ColumnPeaks {
 }
 
 /// Springs at 4 Omega_n, whose landing is the same but four times as fast.
-pub fn stiffer(springs: &[Springs<Chain<f64>>]) -> Vec<Springs<Chain<f64>>> {
+pub fn stiffer(springs: &[Springs<Chain>]) -> Vec<Springs<Chain>> {
     check::scaled(springs, check::FACTOR)
 }
 

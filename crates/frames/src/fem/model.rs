@@ -58,7 +58,7 @@ impl CornerState {
 pub(super) struct ElasticModel<'a> {
     pub frame: &'a Frame,
     /// Under each corner.
-    pub units: &'a [Springs<Chain<f64>>],
+    pub units: &'a [Springs<Chain>],
     /// Number of the frame's coordinates, and with the absorbers.
     pub n: usize,
     pub size: usize,
@@ -73,7 +73,7 @@ pub(super) fn absorber(n: usize, corner: usize) -> usize {
 }
 
 impl<'a> ElasticModel<'a> {
-    pub(crate) fn new(frame: &'a Frame, units: &'a [Springs<Chain<f64>>]) -> Self {
+    pub(crate) fn new(frame: &'a Frame, units: &'a [Springs<Chain>]) -> Self {
         let n = frame.size();
         let tau = |i: usize| {
             2.0 * (frame.effective_mass(i)[1] / (FRICTION * units[i].vertical.k1)).sqrt()
@@ -294,7 +294,7 @@ impl<'a> ElasticModel<'a> {
         let mut q = frame.as_slice().to_vec();
         for ((foot, unit), corner) in feet.iter().zip(self.units).zip(self.frame.places()) {
             let [x, z] = corner.reach(frame.as_slice()).place;
-            let share = |chain: &Chain<f64>| chain.k1 / (chain.k1 + chain.k2);
+            let share = |chain: &Chain| chain.k1 / (chain.k1 + chain.k2);
             let along = if foot.closed && foot.holds {
                 (x - foot.anchor) * share(&unit.horizontal)
             } else {

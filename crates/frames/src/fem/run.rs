@@ -27,7 +27,7 @@ pub(super) struct ElasticView<'a> {
     pub q: &'a [f64],
     pub v: &'a [f64],
     pub feet: &'a [CornerState],
-    pub energy: &'a Energy<f64>,
+    pub energy: &'a Energy,
 }
 
 /// A history in the making.
@@ -43,7 +43,7 @@ pub(super) struct SpringsRun<'a> {
     pub q: Vec<f64>,
     pub v: Vec<f64>,
     pub feet: Vec<CornerState>,
-    pub energy: Energy<f64>,
+    pub energy: Energy,
     /// Largest energy seen (J), the scale of the account.
     pub scale: f64,
     pub scales: ElasticScales,
@@ -57,7 +57,7 @@ pub(super) struct SpringsRun<'a> {
     pub h: f64,
     pub rate: f64,
     /// Ground from now on.
-    pub here: Ground<f64>,
+    pub here: Ground,
     pub time: f64,
     /// Impulses of the corners over the step.
     pub impulses: Vec<[f64; 2]>,
@@ -124,7 +124,7 @@ impl<'a> SpringsRun<'a> {
     }
 
     /// Ground from sample i on.
-    fn ground(&self, i: usize) -> Ground<f64> {
+    fn ground(&self, i: usize) -> Ground {
         let ElasticAnalysis { dt, accel, vertical, scale, .. } = *self.case;
         let at = |i: usize| [accel, vertical].map(|a| scale * a.get(i).copied().unwrap_or(0.0));
         let (now, next) = (at(i), at(i + 1));

@@ -50,7 +50,7 @@ impl ElasticStages {
 pub(super) struct ElasticRequest {
     /// (s)
     pub h: f64,
-    pub ground: Ground<f64>,
+    pub ground: Ground,
     /// A displacement (m) below which an iteration's correction no longer matters.
     pub tolerance: f64,
     /// The factor by which an iteration is expected to reduce the error; 1 if unknown.
@@ -129,7 +129,7 @@ impl<'a> ElasticStepper<'a> {
             return false;
         }
         let model = self.model;
-        let mut convergence = Convergence::new(tolerance, self.rounding, 0, rate);
+        let mut convergence = Convergence::new(tolerance, self.rounding, rate);
         (s.h, s.ground) = (h, C.map(|c| ground.after(h, c)));
         loop {
             for i in 0..3 {
@@ -175,7 +175,7 @@ impl<'a> ElasticStepper<'a> {
         &mut self,
         [q, v]: [&[f64]; 2],
         feet: &[CornerState],
-        ground: &Ground<f64>,
+        ground: &Ground,
         s: &ElasticStages,
     ) -> [f64; 2] {
         let model = self.model;
@@ -211,7 +211,7 @@ impl<'a> ElasticStepper<'a> {
     pub(crate) fn work(
         &self,
         feet: &[CornerState],
-        ground: &Ground<f64>,
+        ground: &Ground,
         s: &ElasticStages,
         impulses: &mut [[f64; 2]],
     ) -> [f64; 2] {

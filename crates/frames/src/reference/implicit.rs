@@ -50,7 +50,7 @@ pub(crate) fn step(
     let scale = StepTolerance(rtol);
     let mut a: [DVector<f64>; 3] = std::array::from_fn(|_| first.a.clone());
     let mut stages: [ReferenceState; 3] = std::array::from_fn(|_| start.clone());
-    let mut convergence = Convergence::new(CONVERGED, 0.0, 0, 1.0);
+    let mut convergence = Convergence::new(CONVERGED, 0.0, 1.0);
     loop {
         let mut powers = [[0.0; 3]; 3];
         let mut residual = [(); 3].map(|()| DVector::zeros(n));

@@ -15,7 +15,7 @@ impl ElasticStructure {
     /// # Errors
     /// A number that makes no sense; a tendon under which a column would buckle or shorten too
     /// much.
-    pub fn bears(&self, members: Members<f64>) -> Result<Members<f64>, ElasticError> {
+    pub fn bears(&self, members: Members) -> Result<Members, ElasticError> {
         let body = Body { height: self.height(), ..self.body() };
         let members = members.checked(&body)?;
         let tension = members.tendon.map_or(0.0, |tendon| tendon.pretension);
@@ -48,7 +48,7 @@ impl ElasticStructure {
 
     /// The structure as nodes, footings and beams, with these members; the tendons' tension is that
     /// of the unstressed structure.
-    pub(crate) fn layout_with(&self, members: &Members<f64>) -> FrameLayout {
+    pub(crate) fn layout_with(&self, members: &Members) -> FrameLayout {
         let mut layout = self.layout();
         if let Some(damper) = members.damper {
             layout.dampers =

@@ -45,7 +45,7 @@ pub struct ElasticCase {
     /// The structure.
     pub structure: ElasticStructure,
     /// Dampers and a tendon: springs are tuned for the structure with them.
-    pub members: Members<f64>,
+    pub members: Members,
     /// The record, its scale, the length asked for.
     pub excitation: Excitation,
     /// What the reader of the record says of it.
@@ -63,8 +63,8 @@ pub struct ElasticCase {
 #[serde(deny_unknown_fields)]
 struct ElasticFile {
     structure: ElasticStructure,
-    damper: Option<Damper<f64>>,
-    tendon: Option<Tendon<f64>>,
+    damper: Option<Damper>,
+    tendon: Option<Tendon>,
     /// Refused: of rigid bodies.
     friction: Option<toml::Value>,
     #[serde(default)]

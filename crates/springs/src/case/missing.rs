@@ -38,9 +38,9 @@ pub(super) fn sections(file: &Table) -> Option<(String, &'static str)> {
     let structure = section("structure").unwrap_or(&empty);
     let (keys, shape) = of_structure(structure);
     let mut all = vec![("structure", keys)];
-    all.extend(section("damper").map(|damper| ("damper", lacks::<Damper<f64>>(damper))));
-    all.extend(section("tendon").map(|tendon| ("tendon", lacks::<Tendon<f64>>(tendon))));
-    all.extend(section("friction").map(|friction| ("friction", lacks::<Friction<f64>>(friction))));
+    all.extend(section("damper").map(|damper| ("damper", lacks::<Damper>(damper))));
+    all.extend(section("tendon").map(|tendon| ("tendon", lacks::<Tendon>(tendon))));
+    all.extend(section("friction").map(|friction| ("friction", lacks::<Friction>(friction))));
     if let Some(record) = section("record").filter(|record| !record.contains_key("file")) {
         let told: Vec<&str> = OF_FILE.into_iter().filter(|key| record.contains_key(*key)).collect();
         let key = format!("file, for {}", told.join(", "));

@@ -39,14 +39,14 @@ pub struct UnitRow {
     pub c_ns_per_m: f64,
 }
 
-impl From<&Chain<f64>> for UnitRow {
-    fn from(chain: &Chain<f64>) -> Self {
+impl From<&Chain> for UnitRow {
+    fn from(chain: &Chain) -> Self {
         Self { k1_n_per_m: chain.k1, k2_n_per_m: chain.k2, m2_kg: chain.m2, c_ns_per_m: chain.c }
     }
 }
 
 impl UnitRow {
-    fn chain(&self) -> Chain<f64> {
+    fn chain(&self) -> Chain {
         Chain { k1: self.k1_n_per_m, k2: self.k2_n_per_m, m2: self.m2_kg, c: self.c_ns_per_m }
     }
 
@@ -74,7 +74,7 @@ pub struct CornerRow {
 
 impl CornerRow {
     /// The units with their numbers.
-    pub(crate) fn chains(&self) -> Springs<Chain<f64>> {
+    pub(crate) fn chains(&self) -> Springs<Chain> {
         Springs { vertical: self.vertical.chain(), horizontal: self.horizontal.chain() }
     }
 }
@@ -148,10 +148,10 @@ pub struct ElasticParameters {
     pub structure: ElasticStructure,
     /// Dampers between corners and ground.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub damper: Option<Damper<f64>>,
+    pub damper: Option<Damper>,
     /// A tendon from the mass to the ground, of a frame one along each column.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub tendon: Option<Tendon<f64>>,
+    pub tendon: Option<Tendon>,
     /// The record, if there was one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub record: Option<RecordRow>,
@@ -184,9 +184,9 @@ impl ElasticParameters {
     pub fn new(
         structure: ElasticStructure,
         omega_n_hz: f64,
-        corners: &[(f64, Springs<Chain<f64>>)],
+        corners: &[(f64, Springs<Chain>)],
     ) -> Self {
-        let row = |(x, springs): &(f64, Springs<Chain<f64>>)| CornerRow {
+        let row = |(x, springs): &(f64, Springs<Chain>)| CornerRow {
             x_m: *x,
             vertical: (&springs.vertical).into(),
             horizontal: (&springs.horizontal).into(),
@@ -210,12 +210,12 @@ impl ElasticParameters {
     }
 
     /// The same of a structure with these members.
-    pub fn with_members(self, Members { damper, tendon, .. }: Members<f64>) -> Self {
+    pub fn with_members(self, Members { damper, tendon, .. }: Members) -> Self {
         Self { damper, tendon, ..self }
     }
 
     /// What the structure has besides.
-    pub(crate) fn members(&self) -> Members<f64> {
+    pub(crate) fn members(&self) -> Members {
         Members { damper: self.damper, tendon: self.tendon, friction: None }
     }
 
@@ -290,7 +290,7 @@ impl ElasticParameters {
     }
 
     /// Under every corner.
-    pub fn chains(&self) -> Vec<Springs<Chain<f64>>> {
+    pub fn chains(&self) -> Vec<Springs<Chain>> {
         self.springs.iter().map(CornerRow::chains).collect()
     }
 

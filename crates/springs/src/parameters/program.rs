@@ -211,7 +211,7 @@ impl ProgramRow<CornerUnits> {
     ) -> Self {
         let corners = &of.springs.corners;
         let k1 = corners.iter().map(|corner| corner.vertical.k1).fold(0.0, f64::max);
-        let row = |(x_m, springs): (f64, &Springs<Chain<f64>>)| CornerRow {
+        let row = |(x_m, springs): (f64, &Springs<Chain>)| CornerRow {
             x_m,
             vertical: (&springs.vertical).into(),
             horizontal: (&springs.horizontal).into(),
@@ -355,7 +355,7 @@ impl<U> ProgramRow<U> {
 
 impl CornerUnits {
     /// The springs.
-    pub fn chains(&self) -> Vec<Springs<Chain<f64>>> {
+    pub fn chains(&self) -> Vec<Springs<Chain>> {
         self.springs.iter().map(CornerRow::chains).collect()
     }
 }

@@ -8,8 +8,6 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::SVector;
-use num_dual::{Derivative, DualNum, DualSVec64};
 use rayon::prelude::*;
 
 use super::{
@@ -24,12 +22,7 @@ use dynamics::{
     fem::Control,
     spring::{Design, Springs},
 };
-use rocking::{
-    scalar::{GRAVITY, Scalar, real},
-    structure::Body,
-};
-
-type FollowDual = DualSVec64<8>;
+use rocking::{scalar::GRAVITY, structure::Body};
 
 /// Stiffness ratio K, damping number C, mass ratio mu: least and largest.
 const K: (f64, f64) = (0.001, LARGEST_K);
@@ -41,8 +34,8 @@ const MU: (f64, f64) = (0.0025, 40.0);
 const SOFTEST: f64 = 0.1;
 
 /// The eight logarithms: Omega_n (Hz), K, C, mu of the vertical and of the horizontal units.
-fn springs<S: Scalar>(z: &[S]) -> Springs<Design<S>> {
-    let design = |z: &[S]| Design::from_kc(z[3].exp(), z[1].exp(), z[2].exp(), z[0].exp());
+fn springs(z: &[f64]) -> Springs<Design<f64>> {
+    let design = |z: &[f64]| Design::from_kc(z[3].exp(), z[1].exp(), z[2].exp(), z[0].exp());
     Springs { vertical: design(&z[..4]), horizontal: design(&z[4..]) }
 }
 
@@ -50,6 +43,10 @@ fn logarithms(s: &Springs<Design<f64>>) -> Vec<f64> {
     let (v, h) = (&s.vertical, &s.horizontal);
     [v.omega_n_hz, v.k(), v.c(), v.mu, h.omega_n_hz, h.k(), h.c(), h.mu].map(f64::ln).to_vec()
 }
+
+/// Half of a difference that a slope is taken from (in logarithms): far above what a history errs,
+/// far below what a design feels as curved.
+const DIFFERENCE: f64 = 0.01;
 
 /// Cost of springs on which a run does not finish.
 const UNFINISHED: f64 = 100.0;
@@ -96,22 +93,21 @@ impl LeastSquares for LandingsAndUplifts<'_> {
     }
 
     fn gradients(&self, z: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
-        let duals: Vec<FollowDual> = z
-            .iter()
-            .enumerate()
-            .map(|(i, &z)| {
-                FollowDual::new(
-                    z,
-                    Derivative::derivative_generic(nalgebra::Const::<8>, nalgebra::U1, i),
-                )
+        let now = self.residuals(z);
+        let slopes: Vec<Vec<f64>> = (0..z.len())
+            .into_par_iter()
+            .map(|i| {
+                let moved = |by: f64| {
+                    let mut z = z.to_vec();
+                    z[i] += by;
+                    self.residuals(&z)
+                };
+                let ends = moved(DIFFERENCE).into_iter().zip(moved(-DIFFERENCE));
+                ends.map(|(up, down)| (up - down) / (2.0 * DIFFERENCE)).collect()
             })
             .collect();
-        // one iteration more leaves the gradients good to the square of the iteration's rate, about
-        // 1e-4: enough for a step
-        let control = Control { extra_iterations: 1, tolerance: 1e-5, ..self.control };
-        let found = self.whole.residuals(&springs(&duals), control, self.effort);
-        let rows = found.iter().map(row).collect();
-        (found.iter().map(|r| r.re).collect(), rows)
+        let rows = (0..now.len()).map(|r| slopes.iter().map(|slope| slope[r]).collect()).collect();
+        (now, rows)
     }
 
     fn bounds(&self) -> (Vec<f64>, Vec<f64>) {
@@ -122,26 +118,12 @@ impl LeastSquares for LandingsAndUplifts<'_> {
 
     fn inequality(&self, z: &[f64]) -> Option<(f64, Vec<f64>)> {
         // ln of g/2 (1 + 1/K) / Omega_n^2 over the largest settlement
-        let settlement = |omega: FollowDual, k: FollowDual| {
-            ((k.exp().recip() + 1.0) * (0.5 * GRAVITY)
-                / ((omega.exp() * TAU) * (omega.exp() * TAU)))
-                .ln()
-        };
-        let seed = |i: usize, x: f64| {
-            FollowDual::new(
-                x,
-                Derivative::derivative_generic(nalgebra::Const::<8>, nalgebra::U1, i),
-            )
-        };
-        let value = settlement(seed(0, z[0]), seed(1, z[1]))
-            - real::<FollowDual>(self.bracket.max_settlement.ln());
-        Some((value.re, row(&value)))
+        let (omega, k) = (z[0].exp() * TAU, z[1].exp());
+        let settlement = (1.0 + 1.0 / k) * (0.5 * GRAVITY) / (omega * omega);
+        let mut row = vec![0.0; z.len()];
+        (row[0], row[1]) = (-2.0, -1.0 / (1.0 + k));
+        Some(((settlement / self.bracket.max_settlement).ln(), row))
     }
-}
-
-fn row(x: &FollowDual) -> Vec<f64> {
-    let row: SVector<f64, 8> = x.eps.unwrap_generic(nalgebra::Const::<8>, nalgebra::U1);
-    row.iter().copied().collect()
 }
 
 /// Omega_h/Omega_v from which the way down begins: what the stiff limit likes, and softer verticals

@@ -4,10 +4,10 @@
 //!  minimise |r + J d|^2   subject to   low <= z + d <= high,  |d_i| <= Delta,  settlement(z) + its gradient d <= limit
 //! ```
 //!
-//! argmin keeps the iteration and its best point; clarabel solves the programme; J comes from dual
-//! numbers, through the integrator and its events. It costs as much as twenty values, so after a
-//! step it is kept and told what the step showed (Broyden, Mathematics of Computation 19, 1965): J
-//! += (dr - J d) d' / d'd. It is taken anew when that no longer gains.
+//! argmin keeps the iteration and its best point; clarabel solves the programme; J comes from
+//! central differences and costs two values a parameter. So after a step it is kept and told what
+//! the step showed (Broyden, Mathematics of Computation 19, 1965): J += (dr - J d) d' / d'd. It is
+//! taken anew when that no longer gains.
 
 use argmin::core::{
     CostFunction, Error, Executor, IterState, Jacobian, KV, Problem, Solver, State,

@@ -16,9 +16,7 @@
 //! sways before it lifts, and this head start (the uplift error) and the error of restitution are
 //! all that sets the two models apart to first order. It is counted by the growing part of what it
 //! becomes, for the body on one foot is an inverted pendulum: u' + p u. Both are in units of the
-//! error of a history (a share 1e-3 of e is worth 1 to 2 %, and more the more impacts). Every
-//! residual is generic in the scalar, so its gradient by the springs is exact, through the
-//! integrator and its events.
+//! error of a history (a share 1e-3 of e is worth 1 to 2 %, and more the more impacts).
 //!
 //! **Another restitution than equation 2's.** While a foot lands fast, all forces pass through it,
 //! so that the body keeps its angular momentum about that foot whatever the springs: that is
@@ -40,10 +38,7 @@ use dynamics::{
     spring::{Design, Springs},
 };
 use landing::{Left, Release};
-use rocking::{
-    scalar::{Scalar, real},
-    structure::Body,
-};
+use rocking::structure::Body;
 use uplift::UpliftRamp;
 
 /// Leans from which landings are judged and reported, shares of alpha.
@@ -120,46 +115,34 @@ impl WholeModel {
     }
 
     /// All residuals, in a fixed order; infinite where a run did not finish.
-    pub(crate) fn residuals<S: Scalar>(
+    pub(crate) fn residuals(
         &self,
-        springs: &Springs<Design<S>>,
+        springs: &Springs<Design<f64>>,
         control: Control,
         effort: &Effort,
-    ) -> Vec<S> {
-        let body = Body {
-            mass: real(self.body.mass),
-            half_width: real(self.body.half_width),
-            height: real(self.body.height),
-            inertia: real(self.body.inertia),
-        };
+    ) -> Vec<f64> {
+        let body = &self.body;
         let chains = springs.chains(body.mass);
         let n = self.releases.len();
         let (w_e, w_l) = (self.weight_restitution(), (self.uplifts.len() as f64).sqrt().recip());
-        let each: Vec<Vec<S>> = (0..n + self.uplifts.len())
+        let each: Vec<Vec<f64>> = (0..n + self.uplifts.len())
             .into_par_iter()
             .with_max_len(1)
             .map(|i| match self.releases.get(i) {
-                Some(release) => match release.run(&body, &chains, (control, effort)) {
+                Some(release) => match release.run(body, &chains, (control, effort)) {
                     Some(Left { kept, growing, air }) => {
-                        let e = if kept.re() > 0.0 {
-                            kept.sqrt() / self.restitution
-                        } else {
-                            S::zero()
-                        };
+                        let e = if kept > 0.0 { kept.sqrt() / self.restitution } else { 0.0 };
                         let missed = match self.criterion {
                             Criterion::Energy => e - 1.0,
                             Criterion::GrowingPart => growing,
                         };
                         let air = air - AIR_FREE * self.air_s;
-                        vec![
-                            missed * w_e,
-                            if air.re() > 0.0 { air * self.weight_air } else { S::zero() },
-                        ]
+                        vec![missed * w_e, if air > 0.0 { air * self.weight_air } else { 0.0 }]
                     }
-                    None => vec![real(f64::INFINITY), S::zero()],
+                    None => vec![f64::INFINITY, 0.0],
                 },
                 None => {
-                    vec![self.uplifts[i - n].uplift_error(&body, &chains, (control, effort)) * w_l]
+                    vec![self.uplifts[i - n].uplift_error(body, &chains, (control, effort)) * w_l]
                 }
             })
             .collect();

@@ -150,14 +150,14 @@ impl Suites {
     }
 
     /// The error of springs on every suite.
-    pub fn accuracy(&self, springs: &Springs<Chain<f64>>, control: Control) -> MeasuredErrors {
+    pub fn accuracy(&self, springs: &Springs<Chain>, control: Control) -> MeasuredErrors {
         self.accuracy_within(springs, (control, &Effort::unbounded()))
     }
 
     /// The same, its work counted; nothing more is measured once it is stopped from outside.
     pub(crate) fn accuracy_within(
         &self,
-        springs: &Springs<Chain<f64>>,
+        springs: &Springs<Chain>,
         (control, effort): (Control, &Effort),
     ) -> MeasuredErrors {
         let mut measured = MeasuredErrors::default();
@@ -173,7 +173,7 @@ impl Suites {
     pub(crate) fn measure(
         &self,
         suite: JudgedOn,
-        springs: &Springs<Chain<f64>>,
+        springs: &Springs<Chain>,
         (control, effort): (Control, &Effort),
         measured: &mut MeasuredErrors,
     ) {
@@ -221,7 +221,7 @@ impl Suites {
 
     /// The error of histories on the record, or the median of the synthetic motions where it cannot
     /// be followed: one number for a figure.
-    pub fn error(&self, springs: &Springs<Chain<f64>>, control: Control) -> Option<f64> {
+    pub fn error(&self, springs: &Springs<Chain>, control: Control) -> Option<f64> {
         self.error_by(Yardstick::Histories, springs, control)
     }
 
@@ -229,9 +229,9 @@ impl Suites {
     /// that is not judged on from its beginning to its end, which is then not followed.
     pub fn error_on_whole_record(
         &self,
-        springs: &Springs<Chain<f64>>,
+        springs: &Springs<Chain>,
         control: Control,
-        watch: &mut impl Observer<f64>,
+        watch: &mut dyn Observer,
     ) -> Option<f64> {
         let trial = self.record.as_ref().filter(|trial| !trial.overturns)?;
         let effort = Effort::unbounded();
@@ -242,7 +242,7 @@ impl Suites {
     pub(crate) fn error_by(
         &self,
         yardstick: Yardstick,
-        springs: &Springs<Chain<f64>>,
+        springs: &Springs<Chain>,
         control: Control,
     ) -> Option<f64> {
         let trials = if self.has_record() { self.record.as_slice() } else { &self.synthetic };

@@ -170,7 +170,7 @@ impl Validator {
     pub(crate) fn judge(&self, records: &[Record]) -> Vec<Row> {
         let answers: Vec<HousnerAnswer> =
             records.par_iter().with_max_len(1).map(|record| self.answer(record)).collect();
-        let cases: Vec<fem::Analysis<f64>> =
+        let cases: Vec<fem::Analysis> =
             answers.iter().map(|answer| self.case(&answer.record)).collect();
         let watch = |i: usize| {
             ComparisonObserver::new(&self.body, answers[i].standing(), cases[i].accel)
@@ -195,7 +195,7 @@ impl Validator {
         HousnerAnswer { record, options, rocking, forces, conditioning }
     }
 
-    fn case<'a>(&self, record: &'a Record) -> fem::Analysis<'a, f64> {
+    fn case<'a>(&self, record: &'a Record) -> fem::Analysis<'a> {
         fem::Analysis {
             body: self.body,
             springs: self.springs,
@@ -212,7 +212,7 @@ impl Validator {
         &self,
         answer: &HousnerAnswer,
         stream: &ComparisonObserver,
-        finish: &fem::Finish<f64>,
+        finish: &fem::Finish,
     ) -> Row {
         let HousnerAnswer { record, options, rocking, conditioning, .. } = answer;
         let (body, dt, accel) = (&self.body, record.dt, &record.accel[..]);

@@ -137,8 +137,8 @@ impl<'a> ComparisonObserver<'a> {
     }
 }
 
-impl Observer<f64> for ComparisonObserver<'_> {
-    fn sample(&mut self, index: usize, view: &View<f64>) -> ControlFlow<()> {
+impl Observer for ComparisonObserver<'_> {
+    fn sample(&mut self, index: usize, view: &View) -> ControlFlow<()> {
         if index == 0 {
             self.initial_z = view.z();
         }
@@ -166,7 +166,7 @@ impl Observer<f64> for ComparisonObserver<'_> {
         if self.falls_from(index) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    fn event(&mut self, _: usize, change: Change, view: &View<f64>) {
+    fn event(&mut self, _: usize, change: Change, view: &View) {
         if change == Change::TouchDown {
             self.touched = view.time;
         }

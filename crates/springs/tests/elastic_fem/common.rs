@@ -50,7 +50,7 @@ pub const MODERATE: Numbers =
 
 /// Springs scaled by what lands at each corner: K 0.05, C_u 0.60, mu_u 0.66; horizontally K 1, C 2,
 /// mu 0.3 and `ratio` times the frequency (Hz).
-pub fn springs(frame: &Frame, hz: f64, ratio: f64) -> Vec<Springs<Chain<f64>>> {
+pub fn springs(frame: &Frame, hz: f64, ratio: f64) -> Vec<Springs<Chain>> {
     let chain = |m: f64, hz: f64, k: f64, c: f64, mu: f64| {
         let omega = TAU * hz;
         let k1 = m * omega * omega;

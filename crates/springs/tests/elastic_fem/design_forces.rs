@@ -260,7 +260,7 @@ fn hold_forces_on_other_motions(column_mass_kg: f64, elements: Option<usize>) {
     let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
     let trials = (0..8)
         .filter_map(|i| ElasticTrial::shaken(&model, &synthetic::record(77, i, p, alpha)).trial());
-    let peaks = |trial: &ElasticTrial, springs: &[Springs<Chain<f64>>]| {
+    let peaks = |trial: &ElasticTrial, springs: &[Springs<Chain>]| {
         let parts = forces.parts(trial.dt);
         forces.peaks(&trial.follow(&model, springs, default_control(), parts).unwrap())
     };

@@ -44,7 +44,7 @@ fn legs() -> ElasticStructure {
     )
 }
 
-fn tied(stiffness: f64, pretension: f64) -> Members<f64> {
+fn tied(stiffness: f64, pretension: f64) -> Members {
     Members { tendon: Some(Tendon { stiffness, pretension }), ..Members::default() }
 }
 

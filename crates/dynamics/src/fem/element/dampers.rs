@@ -7,28 +7,24 @@
 
 use super::{Element, ElementTangent};
 use crate::fem::model::{Pose, SIDE, TH, Vector, Z};
-use rocking::{scalar::Scalar, structure::Body};
+use rocking::structure::Body;
 
 /// Both dashpots.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Dampers<S> {
+pub(crate) struct Dampers {
     /// c of each (N s/m).
-    c: S,
-    half_width: S,
-    height: S,
+    c: f64,
+    half_width: f64,
+    height: f64,
 }
 
-impl<S: Scalar> Dampers<S> {
-    pub(crate) fn new(c: S, body: &Body<S>) -> Self {
+impl Dampers {
+    pub(crate) fn new(c: f64, body: &Body<f64>) -> Self {
         Self { c, half_width: body.half_width, height: body.height }
     }
 
-    pub(crate) fn real(&self) -> Dampers<f64> {
-        Dampers { c: self.c.re(), half_width: self.half_width.re(), height: self.height.re() }
-    }
-
     /// Each one's force on the body, upwards (N), and its arm a (m).
-    pub(crate) fn forces(&self, q: &Vector<S>, v: &Vector<S>) -> [(S, S); 2] {
+    pub(crate) fn forces(&self, q: &Vector, v: &Vector) -> [(f64, f64); 2] {
         let Pose { sin, cos } = Pose::of(q);
         std::array::from_fn(|i| {
             let arm = self.height * sin - self.half_width * SIDE[i] * cos;
@@ -37,17 +33,17 @@ impl<S: Scalar> Dampers<S> {
     }
 }
 
-impl<S: Scalar> Element<S> for Dampers<S> {
-    fn energy(&self, _: &Vector<S>) -> S {
-        S::zero()
+impl Element for Dampers {
+    fn energy(&self, _: &Vector) -> f64 {
+        0.0
     }
 
-    fn force(&self, q: &Vector<S>, v: &Vector<S>) -> [S; 3] {
+    fn force(&self, q: &Vector, v: &Vector) -> [f64; 3] {
         let [left, right] = self.forces(q, v).map(|(force, arm)| (force, force * arm));
-        [S::zero(), left.0 + right.0, left.1 + right.1]
+        [0.0, left.0 + right.0, left.1 + right.1]
     }
 
-    fn tangent(&self, q: &Vector<S>, v: &Vector<S>) -> ElementTangent<S> {
+    fn tangent(&self, q: &Vector, v: &Vector) -> ElementTangent {
         let Pose { sin, cos } = Pose::of(q);
         let (c, rate, forces) = (self.c, v[TH], self.forces(q, v));
         let one = |i: usize| {
@@ -57,14 +53,14 @@ impl<S: Scalar> Element<S> for Dampers<S> {
         };
         let (l, r) = (one(0), one(1));
         let [arm, arm2, z_th, th_th] = std::array::from_fn(|k| l[k] + r[k]);
-        let zero = S::zero();
+        let zero = 0.0;
         ElementTangent {
             stiffness: [[zero; 3], [zero, zero, z_th], [zero, zero, th_th]],
             damping: [[zero; 3], [zero, c + c, arm], [zero, arm, arm2]],
         }
     }
 
-    fn dissipation(&self, q: &Vector<S>, v: &Vector<S>) -> S {
+    fn dissipation(&self, q: &Vector, v: &Vector) -> f64 {
         let [left, right] = self.forces(q, v).map(|(force, arm)| -force * (v[Z] + arm * v[TH]));
         left + right
     }

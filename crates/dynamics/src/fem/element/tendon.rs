@@ -7,51 +7,40 @@
 
 use super::{Element, ElementTangent};
 use crate::fem::model::{Vector, X, Z};
-use rocking::scalar::Scalar;
 
 /// A tendon.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct TendonElement<S> {
+pub(crate) struct TendonElement {
     /// k (N/m).
-    pub stiffness: S,
+    pub stiffness: f64,
     /// l_0, at which it begins to pull (m).
-    pub slack: S,
+    pub slack: f64,
     /// h, of the mass above the anchor while the structure stands unstressed (m).
-    pub height: S,
+    pub height: f64,
     /// T while the structure stands settled (N).
-    pub pretension: S,
+    pub pretension: f64,
 }
 
 /// Its state in one configuration.
-struct TendonState<S> {
+struct TendonState {
     /// T (N).
-    tension: S,
+    tension: f64,
     /// l - l_0 (m).
-    stretch: S,
+    stretch: f64,
     /// l (m).
-    length: S,
+    length: f64,
     /// From the anchor to the mass.
-    direction: [S; 2],
+    direction: [f64; 2],
 }
 
-impl<S: Scalar> TendonElement<S> {
-    pub(crate) fn real(&self) -> TendonElement<f64> {
-        let Self { stiffness, slack, height, pretension } = self;
-        TendonElement {
-            stiffness: stiffness.re(),
-            slack: slack.re(),
-            height: height.re(),
-            pretension: pretension.re(),
-        }
-    }
-
+impl TendonElement {
     /// Its pull; none while it is slack.
-    fn pull(&self, q: &Vector<S>) -> Option<TendonState<S>> {
+    fn pull(&self, q: &Vector) -> Option<TendonState> {
         let (x, z) = (q[X], self.height + q[Z]);
         let length = (x * x + z * z).sqrt();
         let stretch = length - self.slack;
         let tension = self.stiffness * stretch;
-        (stretch.re() > 0.0).then(|| TendonState {
+        (stretch > 0.0).then(|| TendonState {
             tension,
             stretch,
             length,
@@ -60,31 +49,30 @@ impl<S: Scalar> TendonElement<S> {
     }
 
     /// T (N).
-    pub(crate) fn tension(&self, q: &Vector<S>) -> S {
-        self.pull(q).map_or(S::zero(), |pull| pull.tension)
+    pub(crate) fn tension(&self, q: &Vector) -> f64 {
+        self.pull(q).map_or(0.0, |pull| pull.tension)
     }
 
     /// Force on the mass, horizontal and vertical (N).
-    pub(crate) fn force_on_mass(&self, q: &Vector<S>) -> [S; 2] {
-        self.pull(q)
-            .map_or([S::zero(); 2], |TendonState { tension, direction: [ux, uz], .. }| {
-                [-tension * ux, -tension * uz]
-            })
+    pub(crate) fn force_on_mass(&self, q: &Vector) -> [f64; 2] {
+        self.pull(q).map_or([0.0; 2], |TendonState { tension, direction: [ux, uz], .. }| {
+            [-tension * ux, -tension * uz]
+        })
     }
 }
 
-impl<S: Scalar> Element<S> for TendonElement<S> {
-    fn energy(&self, q: &Vector<S>) -> S {
-        self.pull(q).map_or(S::zero(), |pull| pull.tension * pull.stretch * 0.5)
+impl Element for TendonElement {
+    fn energy(&self, q: &Vector) -> f64 {
+        self.pull(q).map_or(0.0, |pull| pull.tension * pull.stretch * 0.5)
     }
 
-    fn force(&self, q: &Vector<S>, _: &Vector<S>) -> [S; 3] {
+    fn force(&self, q: &Vector, _: &Vector) -> [f64; 3] {
         let [x, z] = self.force_on_mass(q);
-        [x, z, S::zero()]
+        [x, z, 0.0]
     }
 
-    fn tangent(&self, q: &Vector<S>, _: &Vector<S>) -> ElementTangent<S> {
-        let zero = S::zero();
+    fn tangent(&self, q: &Vector, _: &Vector) -> ElementTangent {
+        let zero = 0.0;
         let none = [[zero; 3]; 3];
         let Some(TendonState { tension, length, direction: [ux, uz], .. }) = self.pull(q) else {
             return ElementTangent { stiffness: none, damping: none };
@@ -100,7 +88,7 @@ impl<S: Scalar> Element<S> for TendonElement<S> {
         ElementTangent { stiffness, damping: none }
     }
 
-    fn dissipation(&self, _: &Vector<S>, _: &Vector<S>) -> S {
-        S::zero()
+    fn dissipation(&self, _: &Vector, _: &Vector) -> f64 {
+        0.0
     }
 }

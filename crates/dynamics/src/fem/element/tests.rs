@@ -1,40 +1,27 @@
 //! The ladder energy -> force -> tangent, and the power taken, for every element.
 
-use num_dual::Dual64;
-
 use super::*;
-use crate::fem::model::N;
+use crate::fem::{
+    model::N,
+    tests::{moved, slopes},
+};
 use rocking::structure::Body;
 
-const Q: Vector<f64> = [0.4, 0.03, 0.07, 0.0, 0.0, 0.0, 0.0];
-const V: Vector<f64> = [0.5, -0.2, 0.3, 0.0, 0.0, 0.0, 0.0];
+const Q: Vector = [0.4, 0.03, 0.07, 0.0, 0.0, 0.0, 0.0];
+const V: Vector = [0.5, -0.2, 0.3, 0.0, 0.0, 0.0, 0.0];
 
-fn body<S: Scalar>() -> Body<S> {
-    Body {
-        mass: S::from(1e5),
-        half_width: S::from(1.05),
-        height: S::from(9.0),
-        inertia: S::from(2e5),
-    }
+fn body() -> Body<f64> {
+    Body { mass: 1e5, half_width: 1.05, height: 9.0, inertia: 2e5 }
 }
 
 /// Every element, by name.
-fn all<S: Scalar>() -> Vec<(&'static str, Box<dyn Element<S>>)> {
-    let tendon = |slack: f64| TendonElement {
-        stiffness: S::from(4e6),
-        slack: S::from(slack),
-        height: S::from(9.0),
-        pretension: S::zero(),
-    };
+fn all() -> Vec<(&'static str, Box<dyn Element>)> {
+    let tendon = |slack: f64| TendonElement { stiffness: 4e6, slack, height: 9.0, pretension: 0.0 };
     vec![
-        ("dampers", Box::new(Dampers::new(S::from(3e4), &body()))),
+        ("dampers", Box::new(Dampers::new(3e4, &body()))),
         ("tendon", Box::new(tendon(8.9))),
         ("slack tendon", Box::new(tendon(9.9))),
     ]
-}
-
-fn seeded(x: &Vector<f64>, j: usize) -> Vector<Dual64> {
-    std::array::from_fn(|k| Dual64::new(x[k], if k == j { 1.0 } else { 0.0 }))
 }
 
 /// Forces scale with the largest stiffness times a metre: 4e6 N.
@@ -42,10 +29,10 @@ const SCALE: f64 = 4e6;
 
 #[test]
 fn forces_at_rest_are_minus_the_slope_of_the_energy() {
-    for ((name, real), (_, dual)) in all::<f64>().iter().zip(all::<Dual64>()) {
-        let force = real.force(&Q, &[0.0; N]);
+    for (name, element) in all() {
+        let force = element.force(&Q, &[0.0; N]);
         for (k, f) in force.iter().enumerate() {
-            let slope = dual.energy(&seeded(&Q, k)).eps;
+            let [slope] = slopes(2e-3, |t| [element.energy(&moved(&Q, k, t))]);
             assert!((f + slope).abs() < 1e-12 * SCALE, "{name}, {k}: {f}, {slope}");
         }
     }
@@ -53,23 +40,16 @@ fn forces_at_rest_are_minus_the_slope_of_the_energy() {
 
 #[test]
 fn tangents_are_minus_the_slopes_of_the_force() {
-    for ((name, real), (_, dual)) in all::<f64>().iter().zip(all::<Dual64>()) {
-        let tangent = real.tangent(&Q, &V);
+    for (name, element) in all() {
+        let tangent = element.tangent(&Q, &V);
         for j in 0..3 {
-            let by_place = dual.force(&seeded(&Q, j), &V.map(Dual64::from_re));
-            let by_rate = dual.force(&Q.map(Dual64::from_re), &seeded(&V, j));
+            let by_place = slopes(2e-3, |t| element.force(&moved(&Q, j, t), &V));
+            let by_rate = slopes(2e-3, |t| element.force(&Q, &moved(&V, j, t)));
             for i in 0..3 {
                 let (k, c) = (tangent.stiffness[i][j], tangent.damping[i][j]);
-                assert!(
-                    (k + by_place[i].eps).abs() < 1e-12 * SCALE,
-                    "{name}, K {i} {j}: {k}, {}",
-                    by_place[i].eps
-                );
-                assert!(
-                    (c + by_rate[i].eps).abs() < 1e-12 * SCALE,
-                    "{name}, C {i} {j}: {c}, {}",
-                    by_rate[i].eps
-                );
+                let (by_place, by_rate) = (by_place[i], by_rate[i]);
+                assert!((k + by_place).abs() < 1e-12 * SCALE, "{name}, K {i} {j}: {k} {by_place}");
+                assert!((c + by_rate).abs() < 1e-12 * SCALE, "{name}, C {i} {j}: {c} {by_rate}");
             }
         }
     }
@@ -77,7 +57,7 @@ fn tangents_are_minus_the_slopes_of_the_force() {
 
 #[test]
 fn the_power_taken_is_that_of_the_force_beyond_its_potential() {
-    for (name, element) in all::<f64>() {
+    for (name, element) in all() {
         let (moving, resting) = (element.force(&Q, &V), element.force(&Q, &[0.0; N]));
         let power: f64 = (0..3).map(|k| (resting[k] - moving[k]) * V[k]).sum();
         assert!(

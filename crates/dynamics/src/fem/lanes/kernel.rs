@@ -101,7 +101,7 @@ pub(super) struct Kernel {
 /// A lane's step, tried.
 pub(super) enum Tried {
     /// Whether it converged, and what it did.
-    Step(bool, StepMeasures<f64>),
+    Step(bool, StepMeasures),
     /// It needs more iterations.
     GoesOn,
     /// It is to be tried by itself.
@@ -153,12 +153,12 @@ impl Kernel {
     }
 
     /// Lane l follows this run from now on.
-    pub(crate) fn assign(&mut self, l: usize, run: &TimeLoop<'_, f64>) {
+    pub(crate) fn assign(&mut self, l: usize, run: &TimeLoop<'_>) {
         let (model, scales) = (run.model, &run.scales);
         self.gap_tolerance[l] = run.gap_tolerance();
         let Springs { vertical: v, horizontal: h } = &model.springs;
         let Body { mass, half_width, height, inertia } = model.body;
-        let chain = |c: &Chain<f64>| [c.k1, c.k2, c.m2, c.c];
+        let chain = |c: &Chain| [c.k1, c.k2, c.m2, c.c];
         let ([a, b, c, d], [e, f, g, i]) = (chain(v), chain(h));
         let fixed = [
             mass,
@@ -194,9 +194,9 @@ impl Kernel {
     pub(crate) fn submit(
         &mut self,
         l: usize,
-        state: &State<f64>,
-        feet: &[Foot<f64>; 2],
-        request: &Request<f64>,
+        state: &State,
+        feet: &[Foot; 2],
+        request: &Request,
         rounding: f64,
     ) {
         assert!(l < WIDTH);
@@ -220,14 +220,13 @@ impl Kernel {
         }
         self.turning[l] = f64::from(u8::from(request.turning.is_some()));
         self.weight[l] = request.turning.map_or(1.0, |turning| turning.weight);
-        self.convergence[l] =
-            Some(Convergence::new(request.tolerance, rounding, request.extra, request.rate));
+        self.convergence[l] = Some(Convergence::new(request.tolerance, rounding, request.rate));
         self.fresh = true;
     }
 
     /// What lane l's step came to; if it converged, its end, and where contacts change or `wholly`
     /// all its stages.
-    pub(crate) fn collect_step(&self, l: usize, wholly: bool, stages: &mut Stages<f64>) -> Tried {
+    pub(crate) fn collect_step(&self, l: usize, wholly: bool, stages: &mut Stages) -> Tried {
         assert!(l < WIDTH);
         if self.steep[l] != 0.0 {
             return Tried::Steep;

@@ -14,8 +14,8 @@ use strong_motion::Record;
 #[derive(Default, PartialEq)]
 struct Bits(Vec<u64>);
 
-impl Observer<f64> for Bits {
-    fn sample(&mut self, _: usize, view: &View<f64>) -> ControlFlow<()> {
+impl Observer for Bits {
+    fn sample(&mut self, _: usize, view: &View) -> ControlFlow<()> {
         self.0.extend(
             [view.x(), view.theta(), view.theta_rate(), view.energy.residual()].map(f64::to_bits),
         );
@@ -30,7 +30,7 @@ fn avx_512_avx_2_and_no_vectors_at_all_agree_to_the_last_bit() {
     let record = Record::el_centro().truncated(12.0);
     let frame = Structure::paper();
     let block = Structure::block(2.0, 0.5, 1e3).unwrap();
-    let cases: Vec<Analysis<f64>> = (0..20)
+    let cases: Vec<Analysis> = (0..20)
         .map(|i| {
             let structure = if i % 2 == 0 { frame } else { block };
             let chain = Design::from_kc(0.5, 0.2, 0.92, [160.0, 40.0, 2500.0][i % 3]);
@@ -51,7 +51,7 @@ fn avx_512_avx_2_and_no_vectors_at_all_agree_to_the_last_bit() {
             }
         })
         .collect();
-    let models: Vec<Model<f64>> = cases.iter().map(Analysis::model).collect();
+    let models: Vec<Model> = cases.iter().map(Analysis::model).collect();
     let followed = |step: Step| {
         let next = AtomicUsize::new(0);
         let mut batch = Batch {

@@ -2,24 +2,24 @@
 
 use super::{Contact, Foot, FootForce, Model, Pose, State, TH, Vector, X, Z, ax, az};
 use crate::spring::Springs;
-use rocking::scalar::{GRAVITY, Scalar};
+use rocking::scalar::GRAVITY;
 
-impl<S: Scalar> Model<S> {
+impl Model {
     /// Kinetic energy of the body (J).
     #[inline(always)]
-    pub(crate) fn body_kinetic(&self, state: &State<S>) -> S {
+    pub(crate) fn body_kinetic(&self, state: &State) -> f64 {
         let v = &state.v;
         (self.translation * (v[X] * v[X] + v[Z] * v[Z]) + self.rotation * v[TH] * v[TH]) * 0.5
     }
 
     /// Kinetic, gravitational and elastic energy (J), gravity from the unstressed position.
-    pub(crate) fn energy(&self, state: &State<S>, feet: &[Foot<S>; 2]) -> S {
+    pub(crate) fn energy(&self, state: &State, feet: &[Foot; 2]) -> f64 {
         self.energy_at(&Pose::of(&state.q), state, feet)
     }
 
     /// The same where the rotation's sine and cosine are known.
     #[inline(always)]
-    pub(crate) fn energy_at(&self, pose: &Pose<S>, state: &State<S>, feet: &[Foot<S>; 2]) -> S {
+    pub(crate) fn energy_at(&self, pose: &Pose, state: &State, feet: &[Foot; 2]) -> f64 {
         let Springs { vertical, horizontal } = &self.springs;
         let (q, v) = (&state.q, &state.v);
         let contact = self.contact_at(pose, q, feet);
@@ -41,7 +41,7 @@ impl<S: Scalar> Model<S> {
     /// Power of the base excitation in the moving frame, -ug'' (m X' + sum m2_h a_x') - vg'' (m Z'
     /// + sum m2_v a_z') (W).
     #[inline(always)]
-    pub(crate) fn input_power(&self, v: &Vector<S>, [ground, up]: [S; 2]) -> S {
+    pub(crate) fn input_power(&self, v: &Vector, [ground, up]: [f64; 2]) -> f64 {
         let Springs { vertical, horizontal } = &self.springs;
         -(self.body.mass * v[X] + horizontal.m2 * (v[ax(0)] + v[ax(1)])) * ground
             - (self.body.mass * v[Z] + vertical.m2 * (v[az(0)] + v[az(1)])) * up
@@ -49,7 +49,7 @@ impl<S: Scalar> Model<S> {
 
     /// Power that the dashpots take, and friction (W).
     #[inline(always)]
-    pub(crate) fn dissipation(&self, q: &Vector<S>, v: &Vector<S>, feet: &[Foot<S>; 2]) -> S {
+    pub(crate) fn dissipation(&self, q: &Vector, v: &Vector, feet: &[Foot; 2]) -> f64 {
         let Springs { vertical, horizontal } = &self.springs;
         let springs = horizontal.c * (v[ax(0)] * v[ax(0)] + v[ax(1)] * v[ax(1)])
             + vertical.c * (v[az(0)] * v[az(0)] + v[az(1)] * v[az(1)]);
@@ -59,11 +59,11 @@ impl<S: Scalar> Model<S> {
     }
 
     /// Power that friction takes (W).
-    fn friction_loss(&self, q: &Vector<S>, v: &Vector<S>, feet: &[Foot<S>; 2]) -> S {
+    fn friction_loss(&self, q: &Vector, v: &Vector, feet: &[Foot; 2]) -> f64 {
         let contact = self.contact(q, feet);
         let loss = |i: usize| match feet[i].contact {
             Contact::Slip(side) => -contact[i].horizontal * self.slip_rate(i, q, v, side),
-            _ => S::zero(),
+            _ => 0.0,
         };
         loss(0) + loss(1)
     }

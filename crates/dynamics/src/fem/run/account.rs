@@ -6,16 +6,16 @@ use crate::fem::{
     model::{Model, State, TH, X, Z},
     step::Stages,
 };
-use rocking::scalar::{GRAVITY, Scalar};
+use rocking::scalar::GRAVITY;
 
 /// What a step does, measured.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct StepMeasures<S> {
+pub(crate) struct StepMeasures {
     /// Energy stored at its end (J).
-    pub stored: S,
+    pub stored: f64,
     /// Work of the base excitation and dissipation over it (J).
-    pub input: S,
-    pub dissipated: S,
+    pub input: f64,
+    pub dissipated: f64,
     /// Its local error by the embedded formula: of the body's place over R alpha, and of its
     /// momentum over m p R alpha.
     pub missed: f64,
@@ -45,26 +45,26 @@ pub(crate) struct Scales {
 }
 
 impl Scales {
-    pub(crate) fn of<S: Scalar>(model: &Model<S>) -> Self {
+    pub(crate) fn of(model: &Model) -> Self {
         let body = &model.body;
-        let radius = body.radius().re();
-        let share = model.rotation.re() / (body.mass.re() * radius * radius);
-        let moment = body.p_squared().re().sqrt().recip();
-        Self { radius, share: share.min(1.0), moment, alpha: body.alpha().re() }
+        let radius = body.radius();
+        let share = model.rotation / (body.mass * radius * radius);
+        let moment = body.p_squared().sqrt().recip();
+        Self { radius, share: share.min(1.0), moment, alpha: body.alpha() }
     }
 
     /// Of what a step misses.
     #[inline(always)]
-    pub(crate) fn missed(&self, State { q, v }: &State<f64>) -> f64 {
+    pub(crate) fn missed(&self, State { q, v }: &State) -> f64 {
         let place = q[X].abs().max(q[Z].abs()).max(q[TH].abs() * self.radius);
         let speed = v[X].abs().max(v[Z].abs()).max(v[TH].abs() * self.radius * self.share);
         place.max(speed * self.moment) / (self.radius * self.alpha)
     }
 }
 
-impl<S: Scalar> TimeLoop<'_, S> {
+impl TimeLoop<'_> {
     /// What a step does to the account, and what it misses.
-    pub(super) fn measure(&self, stages: &Stages<S>) -> StepMeasures<S> {
+    pub(super) fn measure(&self, stages: &Stages) -> StepMeasures {
         let stored = self.model.energy(&stages.end(), &self.feet);
         let (input, dissipated) = stages.work(self.model, &self.feet, &self.here);
         let local = self.stepper.local_error(&self.state, &self.feet, &self.here, stages);
@@ -79,10 +79,10 @@ impl<S: Scalar> TimeLoop<'_, S> {
 
     /// Book the step if the account closes well enough and little is missed; choose the next step's
     /// size.
-    pub(super) fn account(&mut self, stages: &Stages<S>, measures: &StepMeasures<S>) -> bool {
+    pub(super) fn account(&mut self, stages: &Stages, measures: &StepMeasures) -> bool {
         let &StepMeasures { stored, input, dissipated, missed, .. } = measures;
-        let defect = (stored - self.energy.stored - input + dissipated).re().abs();
-        let h = stages.h.re();
+        let defect = (stored - self.energy.stored - input + dissipated).abs();
+        let h = stages.h;
         let process_step = TriedStep { h, planned: self.h, settling: self.settling };
         match process_step
             .verdict([defect, missed], [self.allowed(stored, stages), self.allowed_error(h)])
@@ -108,12 +108,12 @@ impl<S: Scalar> TimeLoop<'_, S> {
     /// What that error may be; never less than rounding makes of it.
     fn allowed_error(&self, h: f64) -> f64 {
         let rounding = self.rounding * (1.0 + self.scales.moment / h)
-            / (self.scales.alpha * self.model.body.half_width.re());
+            / (self.scales.alpha * self.model.body.half_width);
         self.error.max(rounding)
     }
 
     /// Energy that this step may lose or gain (J).
-    fn allowed(&self, stored: S, stages: &Stages<S>) -> f64 {
+    fn allowed(&self, stored: f64, stages: &Stages) -> f64 {
         allowed_energy(self.control.tolerance * self.scale, &self.energy, stored)
             .max(self.places(stages))
     }
@@ -121,11 +121,10 @@ impl<S: Scalar> TimeLoop<'_, S> {
     /// Energy that comes and goes as places are rounded (J): a few units in their last digit times
     /// the force. On stiff springs under a body far from where it stood, a smaller step does not
     /// lose less.
-    fn places(&self, stages: &Stages<S>) -> f64 {
+    fn places(&self, stages: &Stages) -> f64 {
         let (q, a) = (&stages.q[2], &stages.a[2]);
-        let place =
-            q[X].re().abs() + q[Z].re().abs() + q[TH].re().abs() * self.model.body.radius().re();
-        let force = self.model.translation.re() * (a[X].re().abs() + a[Z].re().abs() + GRAVITY);
+        let place = q[X].abs() + q[Z].abs() + q[TH].abs() * self.model.body.radius();
+        let force = self.model.translation * (a[X].abs() + a[Z].abs() + GRAVITY);
         4.0 * f64::EPSILON * place * force
     }
 }

@@ -6,9 +6,8 @@ use crate::fem::{
     cubic::falls_through_zero,
     model::{Contact, Foot, TH},
     observer::{Change, Observer},
-    step::{Stages, no_guess},
+    step::{NO_GUESS, Stages},
 };
-use rocking::scalar::{Scalar, real};
 
 /// A foot that closes again this soon after it opened, in units of 1/Omega_n, has hardly left the
 /// ground.
@@ -57,7 +56,7 @@ pub(super) const RESTART: f64 = 0.1;
 /// The event that a step is repeated for, so that it ends where a foot's compression passes a
 /// level.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Locating<S> {
+pub(super) struct Locating {
     foot: usize,
     /// (m)
     level: f64,
@@ -65,29 +64,17 @@ pub(super) struct Locating<S> {
     pub whole: f64,
     pub tau: f64,
     /// The size that is tried, and the sizes known to be too small and too large (s).
-    pub h: S,
+    pub h: f64,
     low: f64,
     high: f64,
     /// Sizes tried.
     process_step: usize,
-    /// Whether what is tried is taken.
-    last: bool,
 }
 
-impl<S: Scalar> Locating<S> {
-    pub(crate) fn new(foot: usize, level: f64, (whole, tau): (S, f64)) -> Self {
+impl Locating {
+    pub(crate) fn new(foot: usize, level: f64, (whole, tau): (f64, f64)) -> Self {
         let (low, high) = (0.0, f64::INFINITY);
-        Self {
-            foot,
-            level,
-            whole: whole.re(),
-            tau,
-            h: whole * tau,
-            low,
-            high,
-            process_step: 0,
-            last: false,
-        }
+        Self { foot, level, whole, tau, h: whole * tau, low, high, process_step: 0 }
     }
 
     pub(crate) fn met(&self) -> StepEvent {
@@ -96,9 +83,9 @@ impl<S: Scalar> Locating<S> {
 }
 
 /// What came of a repeated step.
-pub(super) enum Located<S> {
+pub(super) enum Located {
     /// It is to be repeated with this size (s).
-    Next(S),
+    Next(f64),
     /// It is taken; whether the foot passes the level there: if the polynomial saw a graze that the
     /// step itself does not make, it does not.
     Here { changes: bool },
@@ -106,12 +93,12 @@ pub(super) enum Located<S> {
     Nowhere,
 }
 
-impl<S: Scalar> TimeLoop<'_, S> {
+impl TimeLoop<'_> {
     /// Compression below which a gap counts as zero (m): a share of the weight's that is far below
     /// what a step may miss.
     pub(crate) fn gap_tolerance(&self) -> f64 {
         let share = (0.01 * self.control.tolerance).clamp(1e-9, 1e-6);
-        (share * self.compression).max(4e-16 * self.model.body.radius().re())
+        (share * self.compression).max(4e-16 * self.model.body.radius())
     }
 
     /// Whether this foot, touching the ground, trails on it rather than holds (`strut`).
@@ -122,20 +109,16 @@ impl<S: Scalar> TimeLoop<'_, S> {
 
     /// Compression of k1 from which this foot, sliding, holds (m).
     pub(super) fn holding(&self, foot: usize) -> f64 {
-        HOLDING * LET_GO * self.leant_on[foot] / self.model.springs.vertical.k1.re()
+        HOLDING * LET_GO * self.leant_on[foot] / self.model.springs.vertical.k1
     }
 
     /// Take note of the repeated step of an event that is sought, and say how to go on.
     pub(super) fn locate(
         &mut self,
-        event: &mut Locating<S>,
+        event: &mut Locating,
         converged: bool,
-        stages: &Stages<S>,
-    ) -> Located<S> {
-        if event.last {
-            // derivatives of the event's time, by the implicit function theorem
-            return if converged { Located::Here { changes: true } } else { Located::Nowhere };
-        }
+        stages: &Stages,
+    ) -> Located {
         self.work.located += 1;
         event.process_step += 1;
         if !converged {
@@ -145,33 +128,25 @@ impl<S: Scalar> TimeLoop<'_, S> {
         // the contact lasts while sign (compression - level) is positive
         let sign = if self.feet[foot].closed() && event.level == 0.0 { 1.0 } else { -1.0 };
         let gap = self.model.compression(foot, &end.q) - event.level;
-        let met = gap.re().abs() <= self.gap_tolerance();
-        if met && self.control.extra_iterations == 0 {
+        if gap.abs() <= self.gap_tolerance() {
             return Located::Here { changes: true };
         }
         let correction = gap / self.model.compression_rate(foot, &end);
-        let usable = correction.re().abs() <= 0.5 * h.re();
-        if met {
-            if !usable {
-                return Located::Here { changes: true };
-            }
-            (event.h, event.last) = (h - correction, true);
-            return Located::Next(event.h);
-        }
+        let usable = correction.abs() <= 0.5 * h;
         // steps too small for the clock
-        if h.re() <= 1e-9 * self.settling {
+        if h <= 1e-9 * self.settling {
             return Located::Here { changes: true };
         }
-        if sign * gap.re() > 0.0 {
-            event.low = h.re();
+        if sign * gap > 0.0 {
+            event.low = h;
         } else {
-            event.high = h.re();
+            event.high = h;
         }
         let next = h - correction;
-        event.h = if usable && next.re() > event.low && next.re() < event.high {
+        event.h = if usable && next > event.low && next < event.high {
             next
         } else if event.high.is_finite() {
-            real(0.5 * (event.low + event.high))
+            0.5 * (event.low + event.high)
         } else {
             return Located::Here { changes: false };
         };
@@ -183,8 +158,8 @@ impl<S: Scalar> TimeLoop<'_, S> {
         &mut self,
         foot: usize,
         level: f64,
-        time: S,
-        observer: &mut impl Observer<S>,
+        time: f64,
+        observer: &mut dyn Observer,
     ) {
         let before = self.energy.stored;
         let was = self.feet[foot].contact;
@@ -192,9 +167,9 @@ impl<S: Scalar> TimeLoop<'_, S> {
         let anchor = self.model.anchor_here(foot, &self.state.q);
         self.feet[foot] = match was {
             Contact::Open => {
-                let at_once = time.re() - self.opened[foot] < AT_ONCE * self.settling;
+                let at_once = time - self.opened[foot] < AT_ONCE * self.settling;
                 let held = self.let_go[foot] > LET_GO
-                    || self.model.compression(foot, &self.state.q).re() >= self.holding(foot);
+                    || self.model.compression(foot, &self.state.q) >= self.holding(foot);
                 // a body on sliding feet alone has nothing to lean on
                 let leans = self.feet[1 - foot].holds();
                 // with friction the force has gone before the foot opens, and nothing jumps
@@ -214,10 +189,10 @@ impl<S: Scalar> TimeLoop<'_, S> {
             Contact::Trail => Foot { contact: Contact::Open, anchor },
             Contact::Slide if level > 0.0 => Foot { contact: Contact::Stick, anchor },
             Contact::Slide | Contact::Stick | Contact::Slip(_) => {
-                self.opened[foot] = time.re();
+                self.opened[foot] = time;
                 let forces = self.model.contact(&self.state.q, &self.feet);
-                self.leant_on[foot] = forces[1 - foot].vertical.re().max(0.0);
-                self.let_go[foot] = forces[foot].horizontal.re().abs() / self.leant_on[foot];
+                self.leant_on[foot] = forces[1 - foot].vertical.max(0.0);
+                self.let_go[foot] = forces[foot].horizontal.abs() / self.leant_on[foot];
                 Foot { contact: Contact::Open, anchor }
             }
         };
@@ -231,7 +206,7 @@ impl<S: Scalar> TimeLoop<'_, S> {
         self.model.rotate_in_balance(&mut self.state, &self.feet);
         self.energy.stored = self.model.energy(&self.state, &self.feet);
         self.energy.released += before - self.energy.stored;
-        self.guess = no_guess();
+        self.guess = NO_GUESS;
         self.rate = 1.0;
         self.h = self.h.min(RESTART * self.settling);
         self.work.events += 1;
@@ -255,7 +230,7 @@ impl<S: Scalar> TimeLoop<'_, S> {
     fn turn(&mut self) -> Option<usize> {
         let start = self.state.q[TH];
         self.turns += 1;
-        let whirls = self.state.v[TH].re().abs() * self.settling > FASTEST_TURN;
+        let whirls = self.state.v[TH].abs() * self.settling > FASTEST_TURN;
         let flies = !self.feet[0].closed() && !self.feet[1].closed();
         self.balanced = self.turns < MOST_TURNS
             && !(whirls && flies && self.model.massless())
@@ -263,15 +238,15 @@ impl<S: Scalar> TimeLoop<'_, S> {
         let end = self.state.q[TH];
         // feet of a structure with members, and feet that may slip, are met by the steps that
         // follow
-        if !self.balanced || end.re() == start.re() || !self.model.is_plain() {
+        if !self.balanced || end == start || !self.model.is_plain() {
             return None;
         }
         let passed = |foot: usize| {
             let sign = if self.feet[foot].closed() { 1.0 } else { -1.0 };
-            let inside = |theta: S| {
+            let inside = |theta: f64| {
                 let mut q = self.state.q;
                 q[TH] = theta;
-                sign * self.model.compression(foot, &q).re()
+                sign * self.model.compression(foot, &q)
             };
             if inside(end) >= -self.gap_tolerance() {
                 return None;
@@ -289,7 +264,7 @@ impl<S: Scalar> TimeLoop<'_, S> {
             let mut q = self.state.q;
             q[TH] = start;
             let (_, slope) = self.model.compression_and_slope(foot, &q);
-            if sign * slope.re() * (end - start).re() < 0.0 {
+            if sign * slope * (end - start) < 0.0 {
                 return Some((0.0, foot));
             }
             let (mut low, mut high) = (0.0, 1.0);

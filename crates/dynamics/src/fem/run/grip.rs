@@ -10,10 +10,10 @@ use super::TimeLoop;
 use crate::fem::{
     model::{Contact, Foot, State},
     observer::Observer,
-    step::{Stages, no_guess},
+    step::{NO_GUESS, Stages},
     strut::Strut,
 };
-use rocking::scalar::{GRAVITY, Scalar};
+use rocking::scalar::GRAVITY;
 
 /// Share of mu times the weight by which the force of a holding foot may exceed its limit, and
 /// share of g/Omega_n by which a slipping foot may turn back: a foot on the edge of slipping must
@@ -22,11 +22,11 @@ const HESITATION: f64 = 1e-6;
 /// Steps tried to locate the change.
 const MOST_TRIALS: usize = 40;
 
-impl<S: Scalar> TimeLoop<'_, S> {
+impl TimeLoop<'_> {
     /// What must stay positive while foot i holds or slips as it does, in units of the hesitation;
     /// `None` without friction or in the air.
-    fn grip(&self, foot: usize, state: &State<S>) -> Option<f64> {
-        let mu = self.model.law.coefficient().re();
+    fn grip(&self, foot: usize, state: &State) -> Option<f64> {
+        let mu = self.model.law.coefficient();
         match self.feet[foot].contact {
             Contact::Trail => {
                 let Strut { press, lift } = self.model.strut(foot, state);
@@ -36,18 +36,18 @@ impl<S: Scalar> TimeLoop<'_, S> {
             Contact::Open | Contact::Slide => None,
             Contact::Stick => {
                 let f = &self.model.contact(&state.q, &self.feet)[foot];
-                let weight = self.model.body.mass.re() * GRAVITY;
-                Some((mu * f.vertical.re() - f.horizontal.re().abs()) / (HESITATION * mu * weight))
+                let weight = self.model.body.mass * GRAVITY;
+                Some((mu * f.vertical - f.horizontal.abs()) / (HESITATION * mu * weight))
             }
             Contact::Slip(side) => {
-                let rate = self.model.slip_rate(foot, &state.q, &state.v, side).re();
+                let rate = self.model.slip_rate(foot, &state.q, &state.v, side);
                 Some(side * rate / (HESITATION * GRAVITY * self.settling))
             }
         }
     }
 
     /// Where in the step (0 to 1) a foot first changes between holding and slipping, roughly.
-    pub(super) fn loses_grip(&self, stages: &Stages<S>) -> Option<(usize, f64)> {
+    pub(super) fn loses_grip(&self, stages: &Stages) -> Option<(usize, f64)> {
         let changes = (0..2).filter_map(|foot| {
             let mut last = (0.0, self.grip(foot, &self.state)?);
             for (tau, (q, v)) in
@@ -67,7 +67,7 @@ impl<S: Scalar> TimeLoop<'_, S> {
 
     /// Repeat the step so that it ends where the foot's grip changes (false position); whether that
     /// succeeds.
-    pub(super) fn locate_grip(&mut self, foot: usize, tau: f64, stages: &mut Stages<S>) -> bool {
+    pub(super) fn locate_grip(&mut self, foot: usize, tau: f64, stages: &mut Stages) -> bool {
         let (mut low, mut high) = (0.0, f64::INFINITY);
         let (whole, mut at) = (stages.h, tau);
         for _ in 0..MOST_TRIALS {
@@ -78,7 +78,7 @@ impl<S: Scalar> TimeLoop<'_, S> {
             self.work.iterations += stages.iterations;
             let Some(value) = self.grip(foot, &stages.end()) else { return false };
             // at the edge, or as near to it as the clock can tell
-            if (-1.0..=0.0).contains(&value) || whole.re() * at <= 1e-9 * self.settling {
+            if (-1.0..=0.0).contains(&value) || whole * at <= 1e-9 * self.settling {
                 return true;
             }
             if value > 0.0 {
@@ -96,7 +96,7 @@ impl<S: Scalar> TimeLoop<'_, S> {
 
     /// A holding foot begins to slip, or a slipping one holds; its horizontal force stays what it
     /// is. Or a trailing one presses or lifts.
-    pub(super) fn change_grip(&mut self, foot: usize, time: S, observer: &mut impl Observer<S>) {
+    pub(super) fn change_grip(&mut self, foot: usize, time: f64, observer: &mut dyn Observer) {
         if self.feet[foot].contact == Contact::Trail {
             self.turns = 0;
             return self.switch(foot, 0.0, time, observer);
@@ -109,11 +109,11 @@ impl<S: Scalar> TimeLoop<'_, S> {
                     + force / self.model.springs.horizontal.k1;
                 Foot { contact: Contact::Stick, anchor }
             }
-            _ => Foot { contact: Contact::Slip(-force.re().signum()), ..self.feet[foot] },
+            _ => Foot { contact: Contact::Slip(-force.signum()), ..self.feet[foot] },
         };
         self.energy.stored = self.model.energy(&self.state, &self.feet);
         self.energy.released += before - self.energy.stored;
-        self.guess = no_guess();
+        self.guess = NO_GUESS;
         self.rate = 1.0;
         self.h = self.h.min(super::events::RESTART * self.settling);
         self.work.events += 1;

@@ -6,7 +6,6 @@ use crate::fem::{
     model::{Contact, Pose},
     step::Stages,
 };
-use rocking::scalar::Scalar;
 
 /// What a candidate step met.
 pub(super) enum StepEvent {
@@ -33,10 +32,10 @@ impl StepEvent {
     }
 }
 
-impl<S: Scalar> TimeLoop<'_, S> {
+impl TimeLoop<'_> {
     /// Whether a foot's contact changes within the step, and where first; `contacts` is what is
     /// known of it.
-    pub(super) fn met(&self, stages: &Stages<S>, contacts: &Contacts) -> StepEvent {
+    pub(super) fn met(&self, stages: &Stages, contacts: &Contacts) -> StepEvent {
         if matches!(contacts, Contacts::Unchanged) {
             return StepEvent::Nothing;
         }
@@ -52,7 +51,7 @@ impl<S: Scalar> TimeLoop<'_, S> {
 
     /// Whether a foot touches or leaves the ground, or begins to hold as it presses, and where
     /// first.
-    pub(super) fn crosses(&self, stages: &Stages<S>, contacts: &Contacts) -> StepEvent {
+    pub(super) fn crosses(&self, stages: &Stages, contacts: &Contacts) -> StepEvent {
         let mut first = StepEvent::Nothing;
         let mut earliest = f64::INFINITY;
         let gaps = if let Contacts::Gaps(gaps) = contacts { *gaps } else { self.gaps(stages) };
@@ -76,7 +75,7 @@ impl<S: Scalar> TimeLoop<'_, S> {
                 let Some(high) = between.or(high) else { continue };
                 let k = NODES.iter().rposition(|&node| node < high.0).unwrap_or(0);
                 let low = (NODES[k], inside[k].max(0.0));
-                let moves_in = || self.moves_in(foot, sign) * stages.h.re() > self.gap_tolerance();
+                let moves_in = || self.moves_in(foot, sign) * stages.h > self.gap_tolerance();
                 let Some(tau) = self.first_zero(&cubic, low, high, moves_in) else {
                     return StepEvent::Unresolved;
                 };
@@ -90,10 +89,10 @@ impl<S: Scalar> TimeLoop<'_, S> {
     }
 
     /// The compressions of both feet's gaps at the step's start and stages (m).
-    fn gaps(&self, stages: &Stages<S>) -> [[f64; 4]; 2] {
+    fn gaps(&self, stages: &Stages) -> [[f64; 4]; 2] {
         let nodes = [&self.state.q, &stages.q[0], &stages.q[1], &stages.q[2]];
         let poses = nodes.map(Pose::of);
-        let at = |foot: usize, k: usize| self.model.compression_at(&poses[k], foot, nodes[k]).re();
+        let at = |foot: usize, k: usize| self.model.compression_at(&poses[k], foot, nodes[k]);
         [0, 1].map(|foot| [0, 1, 2, 3].map(|k| at(foot, k)))
     }
 
@@ -126,7 +125,7 @@ impl<S: Scalar> TimeLoop<'_, S> {
 
     /// Speed at which a foot moves off the edge of its limit, into it (m/s).
     fn moves_in(&self, foot: usize, sign: f64) -> f64 {
-        sign * self.model.compression_rate(foot, &self.state).re()
+        sign * self.model.compression_rate(foot, &self.state)
     }
 }
 

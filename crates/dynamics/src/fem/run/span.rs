@@ -22,16 +22,16 @@
 //! whose body comes to lie, is refused: the steps up to it end at samples. Contact is looked for
 //! along the parabola; a touch that only what is missing would make is not seen.
 
-use super::{Contacts, Scales, StepEvent, StepMeasures, TimeLoop, real};
+use super::{Contacts, Scales, StepEvent, StepMeasures, TimeLoop};
 use crate::fem::{
     control::HistoryOutcome,
     model::{Contact, Model, Pose, State, TH, Vector, X, Z},
     observer::{Observer, View},
     radau::C,
-    step::{Ground, Stages, no_guess},
+    step::{Ground, NO_GUESS, Stages},
     turning::Turning,
 };
-use rocking::scalar::{GRAVITY, Scalar};
+use rocking::scalar::GRAVITY;
 use std::{f64::consts::FRAC_PI_2, ops::ControlFlow};
 
 /// Intervals between samples in a step, at most.
@@ -57,15 +57,15 @@ pub(super) struct Span {
 }
 
 /// Displacement of the mass per unit acceleration on the springs (s2).
-pub(super) fn compliance<S: Scalar>(model: &Model<S>) -> f64 {
+pub(super) fn compliance(model: &Model) -> f64 {
     let chains = [&model.springs.vertical, &model.springs.horizontal];
-    let give = chains.map(|chain| chain.k1.re().recip() + chain.k2.re().recip());
-    model.body.mass.re() * (give[0] + give[1])
+    let give = chains.map(|chain| chain.k1.recip() + chain.k2.recip());
+    model.body.mass * (give[0] + give[1])
 }
 
-impl<S: Scalar> TimeLoop<'_, S> {
+impl TimeLoop<'_> {
     /// The step over several samples that begins at this sample, and its size, if there is one.
-    pub(super) fn span(&mut self) -> Option<S> {
+    pub(super) fn span(&mut self) -> Option<f64> {
         let dt = self.motion.dt;
         let model = self.model;
         let contacts = self.feet.map(|foot| foot.contact);
@@ -86,15 +86,15 @@ impl<S: Scalar> TimeLoop<'_, S> {
         }
         let (ground, span) = self.parabola(intervals);
         (self.here, self.spanning, self.locating) = (ground, Some(span), None);
-        Some(real(intervals as f64 * dt))
+        Some(intervals as f64 * dt)
     }
 
     /// The parabola over so many intervals from here.
-    fn parabola(&mut self, n: usize) -> (Ground<S>, Span) {
+    fn parabola(&mut self, n: usize) -> (Ground, Span) {
         let (dt, count) = (self.motion.dt, n as f64);
         let (motion, from) = (self.motion, self.interval);
         let a = |i: usize| motion.scale * motion.accel[from + i];
-        let zero = S::zero();
+        let zero = 0.0;
         let (mut m0, mut m1, mut m2) = (zero, zero, zero);
         for i in 0..n {
             let (now, next, at) = (a(i), a(i + 1), i as f64);
@@ -111,17 +111,17 @@ impl<S: Scalar> TimeLoop<'_, S> {
 
         let (h, per) = (count * dt, count.recip());
         let (mut speed, mut place) = (zero, zero);
-        let (mut latest, mut most) = (0.0_f64, (a(0) - c0).re().abs());
+        let (mut latest, mut most) = (0.0_f64, (a(0) - c0).abs());
         for i in 1..=n {
             let (before, now, x) = (a(i - 1), a(i), i as f64 * per);
             place += (speed + (before * THIRD + now * SIXTH) * dt) * dt;
             speed += (before + now) * (0.5 * dt);
             let parabola = (c0 * 0.5 + (c1 + c2 * (0.5 * x)) * (SIXTH * x)) * (h * x * h * x);
-            most = most.max((now - (c0 + (c1 + c2 * x) * x)).re().abs());
+            most = most.max((now - (c0 + (c1 + c2 * x) * x)).abs());
             if i < n {
                 self.late[i] = place - parabola;
                 self.late_rate[i] = speed - (c0 + (c1 * 0.5 + c2 * (THIRD * x)) * x) * (h * x);
-                latest = latest.max(self.late[i].re().abs());
+                latest = latest.max(self.late[i].abs());
             }
         }
         let kinks = (h / self.scales.moment).powi(2) * latest + self.compliance * most;
@@ -137,7 +137,7 @@ impl<S: Scalar> TimeLoop<'_, S> {
     /// ```text
     ///   (I + m R^2) theta'' = -m (ug'' dX/dtheta + g dZ/dtheta)
     /// ```
-    pub(super) fn pendulum(&self, h: S) -> [Vector<S>; 3] {
+    pub(super) fn pendulum(&self, h: f64) -> [Vector; 3] {
         let Self { model, scales, state, .. } = self;
         let foot = usize::from(self.feet[1].closed());
         let inertia = model.rotation + model.translation * (scales.radius * scales.radius);
@@ -153,7 +153,7 @@ impl<S: Scalar> TimeLoop<'_, S> {
             let (_, _, px_th, pz_th) = model.foot(foot, &state.q, sin, cos);
             let [ground, _] = self.here.after(h, c);
             let turning = share * (ground * px_th + pz_th * GRAVITY);
-            let mut a = no_guess();
+            let mut a = NO_GUESS;
             a[TH] = turning;
             a[X] = -(px_th * turning + pz_th * rate * rate);
             a[Z] = px_th * rate * rate - pz_th * turning;
@@ -175,18 +175,18 @@ impl<S: Scalar> TimeLoop<'_, S> {
         &mut self,
         span: &Span,
         converged: bool,
-        stages: &Stages<S>,
-        measures: Option<&StepMeasures<S>>,
-        observer: &mut impl Observer<S>,
+        stages: &Stages,
+        measures: Option<&StepMeasures>,
+        observer: &mut dyn Observer,
     ) -> Result<(), HistoryOutcome> {
-        let h = stages.h.re();
+        let h = stages.h;
         if !converged {
             self.refuse(h * 0.25);
             return Ok(());
         }
         let met = self.met(stages, measures.map_or(&Contacts::Unknown, |m| &m.contacts));
         // a body that lies is followed to the sample at which it does
-        let flat = stages.end().q[TH].re().abs() > FRAC_PI_2;
+        let flat = stages.end().q[TH].abs() > FRAC_PI_2;
         let until = match met {
             StepEvent::Nothing => flat.then_some(0.5),
             StepEvent::Crossing { tau, .. } | StepEvent::Grip { tau, .. } => Some(tau),
@@ -208,11 +208,11 @@ impl<S: Scalar> TimeLoop<'_, S> {
         for i in 1..span.intervals {
             let time = (self.interval + i) as f64 * self.motion.dt;
             // forces are those at the end
-            observer.step(&self.view(real(time)));
+            observer.step(&self.view(time));
             let late = [self.late[i], self.late_rate[i]];
             let state = self.within(&start, stages, i as f64 / span.intervals as f64, late);
             let view = View {
-                time: real(time),
+                time,
                 model: self.model,
                 state: &state,
                 feet: &self.feet,
@@ -223,14 +223,14 @@ impl<S: Scalar> TimeLoop<'_, S> {
             }
         }
         self.interval += span.intervals - 1;
-        (self.t, self.crossing) = (real(self.motion.dt), true);
+        (self.t, self.crossing) = (self.motion.dt, true);
         let time = (self.interval + 1) as f64 * self.motion.dt;
-        observer.step(&self.view(real(time)));
+        observer.step(&self.view(time));
         Ok(())
     }
 
     /// The state at a sample within the step, at tau of it.
-    fn within(&self, start: &State<S>, stages: &Stages<S>, tau: f64, late: [S; 2]) -> State<S> {
+    fn within(&self, start: &State, stages: &Stages, tau: f64, late: [f64; 2]) -> State {
         let (mut q, mut v) = (stages.position(start, tau), stages.velocity(start, tau));
         let foot = usize::from(self.feet[1].closed());
         let (sin, cos) = rocking::scalar::sin_cos(q[TH]);

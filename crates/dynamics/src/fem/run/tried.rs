@@ -10,18 +10,17 @@ use super::{
     met::StepEvent,
 };
 use crate::fem::{control::HistoryOutcome, model::TH, observer::Observer, step::Stages};
-use rocking::scalar::{Scalar, real};
 
-impl<S: Scalar> TimeLoop<'_, S> {
+impl TimeLoop<'_> {
     /// Take note of a step that was tried: accept it, refuse it, or ask for the same step with the
     /// size that is returned, to find the event within it. `measures` are its own, if known.
     pub(crate) fn process_step(
         &mut self,
         converged: bool,
-        stages: &mut Stages<S>,
-        measures: Option<&StepMeasures<S>>,
-        observer: &mut impl Observer<S>,
-    ) -> Result<Option<S>, HistoryOutcome> {
+        stages: &mut Stages,
+        measures: Option<&StepMeasures>,
+        observer: &mut dyn Observer,
+    ) -> Result<Option<f64>, HistoryOutcome> {
         if converged {
             self.work.iterations += stages.iterations;
         }
@@ -29,7 +28,7 @@ impl<S: Scalar> TimeLoop<'_, S> {
             self.tried_span(&span, converged, stages, measures, observer)?;
             return Ok(None);
         }
-        let h = stages.h.re();
+        let h = stages.h;
         if let Some(mut event) = self.locating {
             match self.locate(&mut event, converged, stages) {
                 Located::Next(size) => {
@@ -78,10 +77,10 @@ impl<S: Scalar> TimeLoop<'_, S> {
     /// Book the step, if it is accurate enough, and change the contact that changes at its end.
     fn accept(
         &mut self,
-        stages: &Stages<S>,
-        measures: Option<&StepMeasures<S>>,
+        stages: &Stages,
+        measures: Option<&StepMeasures>,
         met: &StepEvent,
-        observer: &mut impl Observer<S>,
+        observer: &mut dyn Observer,
     ) -> Result<(), HistoryOutcome> {
         let measured = measures.copied().unwrap_or_else(|| self.measure(stages));
         if !self.account(stages, &measured) {
@@ -90,10 +89,10 @@ impl<S: Scalar> TimeLoop<'_, S> {
         }
         self.t += stages.h;
         let t0 = self.start_of_interval();
-        if self.state.q[TH].re().abs() > FRAC_PI_2 {
-            return Err(HistoryOutcome::Overturned { time: t0 + self.t.re() });
+        if self.state.q[TH].abs() > FRAC_PI_2 {
+            return Err(HistoryOutcome::Overturned { time: t0 + self.t });
         }
-        let time = real::<S>(t0) + self.t;
+        let time = t0 + self.t;
         observer.step(&self.view(time));
         match *met {
             StepEvent::Crossing { foot, level, .. } => {

@@ -1,30 +1,28 @@
 //! Friction: its Newton matrix, slipping against closed forms, its energy, and the limit in which
 //! feet hold.
 
-use nalgebra::SMatrix;
 use num_complex::Complex;
-use num_dual::Dual64;
 
-use super::state;
+use super::{dense, largest_residual, state};
 use crate::{
     fem::{
         Analysis, Control, History, Start,
-        model::{Contact, Foot, Model, N, State, Vector},
+        model::{Contact, Foot, Model},
         newton::Newton,
     },
     spring::{Design, Springs},
 };
 use rocking::{
     members::{Friction, Members},
-    scalar::{GRAVITY, Scalar, real},
+    scalar::GRAVITY,
     structure::Body,
 };
 use strong_motion::Record;
 
 const MU: f64 = 0.25;
 
-fn members<S: Scalar>(coefficient: f64) -> Members<S> {
-    Members { friction: Some(Friction { coefficient: real(coefficient) }), ..Members::default() }
+fn members(coefficient: f64) -> Members {
+    Members { friction: Some(Friction { coefficient }), ..Members::default() }
 }
 
 /// With few rebounds.
@@ -37,24 +35,8 @@ fn springs_of(hz: f64) -> Springs<Design<f64>> {
     Springs { vertical: chain, horizontal: Design { mu: 0.3, ..chain } }
 }
 
-fn model<S: Scalar>(body: &Body<f64>) -> Model<S> {
-    let chains = springs().chains(body.mass);
-    let lift = |c: &crate::spring::Chain<f64>| crate::spring::Chain {
-        k1: real(c.k1),
-        k2: real(c.k2),
-        m2: real(c.m2),
-        c: real(c.c),
-    };
-    Model::with_members(
-        &Body {
-            mass: real(body.mass),
-            half_width: real(body.half_width),
-            height: real(body.height),
-            inertia: real(body.inertia),
-        },
-        &Springs { vertical: lift(&chains.vertical), horizontal: lift(&chains.horizontal) },
-        &members::<S>(MU),
-    )
+fn model(body: &Body<f64>) -> Model {
+    Model::with_members(body, &springs().chains(body.mass), &members(MU))
 }
 
 fn run(body: Body<f64>, coefficient: f64, dt: f64, accel: &[f64]) -> History {
@@ -92,40 +74,18 @@ fn flat() -> Body<f64> {
 #[test]
 fn newton_solves_with_the_dense_matrix_while_feet_slip() {
     let body = super::body(0.1);
-    let (model, dual) = (model::<f64>(&body), model::<Dual64>(&body));
-    let State { q, v } = state();
+    let model = model(&body);
+    let lift = |x: f64| Complex::new(x, 0.0);
     let right = [1e6, -2e6, 3e7, 4e5, -5e5, 6e5, 7e5].map(|x| Complex::new(x, -0.3 * x + 1e5));
-    let seeded = |x: &Vector<f64>, j: usize| {
-        std::array::from_fn(|k| Dual64::new(x[k], f64::from(u8::from(k == j))))
-    };
     let all = [Contact::Open, Contact::Stick, Contact::Slip(1.0), Contact::Slip(-1.0)];
     for (left, right_foot) in all.into_iter().flat_map(|l| all.map(|r| (l, r))) {
         let feet =
             [(left, 0.013), (right_foot, -0.007)].map(|(contact, anchor)| Foot { contact, anchor });
-        let dual_feet =
-            feet.map(|f| Foot { contact: f.contact, anchor: Dual64::from_re(f.anchor) });
         for h in [1e-4, 3e-3, 0.05] {
             let s = Complex::new(0.16 * h, 0.18 * h);
-            let mut matrix = SMatrix::<Complex<f64>, N, N>::zeros();
-            for j in 0..N {
-                let zero = Dual64::from_re(0.0);
-                let by_q =
-                    dual.forces(&seeded(&q, j), &v.map(Dual64::from_re), &dual_feet, [zero; 2]);
-                let by_v =
-                    dual.forces(&q.map(Dual64::from_re), &seeded(&v, j), &dual_feet, [zero; 2]);
-                for i in 0..N {
-                    matrix[(i, j)] = -s * (by_v[i].eps + s * by_q[i].eps);
-                }
-                matrix[(j, j)] += model.masses(&feet)[j];
-            }
-            let solution = Newton::new(&model, &state(), &feet, s, |x: f64| Complex::new(x, 0.0))
-                .solve(&right);
-            for i in 0..N {
-                let terms = (0..N).map(|j| matrix[(i, j)] * solution[j]);
-                let scale: f64 = terms.clone().map(|t| t.norm()).sum();
-                let left: Complex<f64> = terms.sum();
-                assert!((left - right[i]).norm() < 1e-9 * scale, "{feet:?} {h} {i}");
-            }
+            let solution = Newton::new(&model, &state(), &feet, s, lift).solve(&right);
+            let missed = largest_residual(&dense(&model, &feet, s, lift), &solution, &right);
+            assert!(missed < 1e-9, "{feet:?} {h}: {missed}");
         }
     }
 }
@@ -187,7 +147,7 @@ fn no_foot_carries_more_than_friction_allows() {
         };
         let mut worst: f64 = 0.0;
         let mut slips = 0.0_f64;
-        let mut watch = |_: usize, view: &crate::fem::View<f64>| {
+        let mut watch = |_: usize, view: &crate::fem::View| {
             let [l, r] = view.model.contact(&view.state.q, view.feet);
             for f in [l, r] {
                 worst = worst.max((f.horizontal.abs() - MU * f.vertical) / (body.mass * GRAVITY));
@@ -238,11 +198,9 @@ fn feet_that_never_slip_give_the_history_without_friction() {
 #[test]
 fn friction_goes_with_a_rigid_body_that_has_rotational_inertia() {
     let body = flat();
-    let both = Members { damper: Some(rocking::members::Damper { c: 1.0 }), ..members::<f64>(MU) };
+    let both = Members { damper: Some(rocking::members::Damper { c: 1.0 }), ..members(MU) };
     assert!(both.checked(&body).unwrap_err().to_string().contains("leave one out"));
-    let spinning = members::<f64>(MU).checked(&Body { inertia: 0.0, ..body });
+    let spinning = members(MU).checked(&Body { inertia: 0.0, ..body });
     assert!(spinning.unwrap_err().to_string().contains("rotational_inertia_kgm2"));
-    assert!(
-        members::<f64>(-0.1).checked(&body).is_err() && members::<f64>(MU).checked(&body).is_ok()
-    );
+    assert!(members(-0.1).checked(&body).is_err() && members(MU).checked(&body).is_ok());
 }

@@ -3,32 +3,18 @@
 use super::{omega, undamped};
 use crate::fem::{
     model::{Contact, Foot, Model, State, X, Z, ax},
-    step::{Ground, Request, Stages, Stepper, no_guess},
+    step::{Ground, NO_GUESS, Request, Stages, Stepper},
 };
 use rocking::scalar::GRAVITY;
 
 /// n steps of size h with frozen contact, without any control.
-fn march(
-    model: &Model<f64>,
-    start: State<f64>,
-    feet: &[Foot<f64>; 2],
-    h: f64,
-    n: usize,
-    slope: f64,
-) -> State<f64> {
+fn march(model: &Model, start: State, feet: &[Foot; 2], h: f64, n: usize, slope: f64) -> State {
     let (mut state, mut stepper, mut stages) = (start, Stepper::new(model), Stages::none());
     for i in 0..n {
         let ground =
             Ground { start: [slope * h * i as f64, 0.0], slope: [slope, 0.0], curve: [0.0; 2] };
-        let request = Request {
-            h,
-            ground,
-            guess: [no_guess(); 3],
-            tolerance: 1e-15,
-            extra: 1,
-            rate: 1.0,
-            turning: None,
-        };
+        let request =
+            Request { h, ground, guess: [NO_GUESS; 3], tolerance: 1e-15, rate: 1.0, turning: None };
         assert!(stepper.step(&state, feet, &request, &mut stages), "a linear step converges");
         state = stages.end();
     }
@@ -67,15 +53,8 @@ fn the_estimate_of_the_local_error_is_of_order_four_and_above_the_error() {
     let estimate = |h: f64| {
         let (mut stepper, mut stages) = (Stepper::new(&model), Stages::none());
         let ground = Ground { start: [0.0; 2], slope: [slope, 0.0], curve: [0.0; 2] };
-        let request = Request {
-            h,
-            ground,
-            guess: [no_guess(); 3],
-            tolerance: 1e-15,
-            extra: 1,
-            rate: 1.0,
-            turning: None,
-        };
+        let request =
+            Request { h, ground, guess: [NO_GUESS; 3], tolerance: 1e-15, rate: 1.0, turning: None };
         assert!(stepper.step(&start, &feet, &request, &mut stages));
         let missed = stepper.local_error(&start, &feet, &ground, &stages);
         let fine = march(&model, start, &feet, h / 16.0, 16, slope);
@@ -137,21 +116,14 @@ fn the_velocity_within_a_step_is_a_cubic_through_its_start() {
     feet.iter_mut().for_each(|f| f.contact = Contact::Open);
     start.v[X] = 0.7;
     let [c0, c1, c2] = [1.3, -4.0, 9.0];
-    let place_slope = |stages: &Stages<f64>, tau: f64| {
+    let place_slope = |stages: &Stages, tau: f64| {
         let near = |tau: f64| stages.position(&start, tau)[X];
         (near(tau + 1e-4) - near(tau - 1e-4)) / (2e-4 * stages.h)
     };
     for h in [0.32, 0.16] {
         let ground = Ground { start: [c0, 0.0], slope: [c1, 0.0], curve: [c2, 0.0] };
-        let request = Request {
-            h,
-            ground,
-            guess: [no_guess(); 3],
-            tolerance: 1e-15,
-            extra: 1,
-            rate: 1.0,
-            turning: None,
-        };
+        let request =
+            Request { h, ground, guess: [NO_GUESS; 3], tolerance: 1e-15, rate: 1.0, turning: None };
         let mut stages = Stages::none();
         assert!(Stepper::new(&model).step(&start, &feet, &request, &mut stages));
         for i in 0..=32 {

@@ -15,8 +15,8 @@ use rocking::{scalar::GRAVITY, structure::Body};
 
 fn run(
     body: Body<f64>,
-    springs: Springs<Chain<f64>>,
-    start: Start<f64>,
+    springs: Springs<Chain>,
+    start: Start,
     dt: f64,
     n: usize,
 ) -> crate::fem::History {
@@ -78,7 +78,7 @@ fn a_lean_of_less_than_the_settlement_presses_both_feet() {
 
 /// Eigenvalues of K x = w^2 M x for the chain m1 - k1 - m2 - k2 under each of two feet, moving
 /// together.
-fn heave(springs: &Springs<Chain<f64>>, m: f64) -> [f64; 2] {
+fn heave(springs: &Springs<Chain>, m: f64) -> [f64; 2] {
     let Chain { k1, k2, m2, .. } = springs.vertical;
     let scale = |a: f64, b: f64| 1.0 / (a * b).sqrt();
     let (body, absorber) = (m / 2.0, m2);
@@ -99,7 +99,7 @@ fn heave_of_the_standing_body_is_the_two_mass_chain() {
     start.q[Z] += amplitude;
     start.q[az(0)] += amplitude * ratio;
     start.q[az(1)] += amplitude * ratio;
-    let accelerations = |s: &State<f64>| {
+    let accelerations = |s: &State| {
         let f = model.forces(&s.q, &s.v, &feet, [0.0; 2]);
         let m = model.masses(&feet);
         [f[Z] / m[Z], f[az(0)] / m[az(0)]]
@@ -114,7 +114,7 @@ fn heave_of_the_standing_body_is_the_two_mass_chain() {
     let mut run =
         TimeLoop::new(&model, (start, feet), Control { tolerance: 1e-13, ..Control::default() });
     let mut last = 0.0;
-    let mut observer = |_: usize, view: &View<f64>| {
+    let mut observer = |_: usize, view: &View| {
         last = view.z();
         std::ops::ControlFlow::Continue(())
     };
@@ -158,7 +158,7 @@ fn damped_heave_decays_by_the_chain_s_complex_eigenvalue() {
         TimeLoop::new(&model, (start, feet), Control { tolerance: 1e-13, ..Control::default() });
     let dt = 0.003;
     let mut worst: f64 = 0.0;
-    let mut observer = |i: usize, view: &View<f64>| {
+    let mut observer = |i: usize, view: &View| {
         let exact = ((s * (i as f64 * dt)).exp() * amplitude).re;
         worst = worst.max((view.z() - rest - exact).abs());
         std::ops::ControlFlow::Continue(())

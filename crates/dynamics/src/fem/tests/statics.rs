@@ -77,7 +77,7 @@ fn a_body_falling_on_dampers_alone_is_the_exponential() {
     let rate = 2.0 * c / body.mass;
     let terminal = GRAVITY / rate;
     let mut worst: f64 = 0.0;
-    let mut observer = |i: usize, view: &View<f64>| {
+    let mut observer = |i: usize, view: &View| {
         let t = i as f64 * 0.02;
         let decay = (-rate * t).exp();
         let z = 1.0 - terminal * (t - (1.0 - decay) / rate);

@@ -58,7 +58,7 @@ const SAME: f64 = 1e-9;
 #[derive(Clone, Debug, PartialEq)]
 pub struct CornerSprings {
     /// Under corner i.
-    pub corners: Vec<Springs<Chain<f64>>>,
+    pub corners: Vec<Springs<Chain>>,
     /// K = k2/k1 of the vertical units.
     pub k: f64,
     /// Energy of all springs over the structure's, under its weight's worth sideways and upwards
@@ -103,7 +103,7 @@ impl Lands {
     }
 
     /// Units at K, at this k1 of the vertical ones (N/m).
-    fn springs(&self, k: f64, k1: f64) -> Springs<Chain<f64>> {
+    fn springs(&self, k: f64, k1: f64) -> Springs<Chain> {
         let mut design = for_part(&self.corners, k);
         let hz = (k1 / self.mass).sqrt() / TAU;
         design.vertical.omega_n_hz *= hz;
@@ -164,7 +164,7 @@ pub fn with_k(standing: &Standing, give: f64, k: f64) -> CornerSprings {
 
 /// Springs of this k1 of the vertical units (N/m), at K.
 pub(super) fn with_vertical(standing: &Standing, k1: f64, k: f64) -> CornerSprings {
-    let mut of_footing: Vec<Springs<Chain<f64>>> = Vec::new();
+    let mut of_footing: Vec<Springs<Chain>> = Vec::new();
     for (i, footing) in standing.footings.iter().enumerate() {
         // a search each: footings that are alike share one
         let same = standing.footings[..i].iter().position(|other| alike(other, footing));
@@ -186,7 +186,7 @@ fn alike(a: &FootingInertia, b: &FootingInertia) -> bool {
 }
 
 /// Energy of the springs over that of the structure.
-fn total_give(sway: &FixedResponse, corners: &[Springs<Chain<f64>>]) -> f64 {
+fn total_give(sway: &FixedResponse, corners: &[Springs<Chain>]) -> f64 {
     let each = sway.reactions.iter().zip(corners);
     let energy: f64 = each
         .map(|([h, n], s)| h * h / s.horizontal.in_series() + n * n / s.vertical.in_series())

@@ -148,7 +148,7 @@ impl ElasticProgramSprings {
 /// A history of the structure in a program beside the reference's.
 fn stepped(
     model: &Assembled,
-    springs: &[Springs<Chain<f64>>],
+    springs: &[Springs<Chain>],
     settings: StepSettings,
     trial: &ElasticTrial,
 ) -> Option<StepErrors> {

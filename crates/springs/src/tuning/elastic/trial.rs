@@ -214,7 +214,7 @@ impl ElasticTrial {
     pub fn follow(
         &self,
         model: &Assembled,
-        springs: &[Springs<Chain<f64>>],
+        springs: &[Springs<Chain>],
         control: Control,
         parts: usize,
     ) -> Option<ElasticHistory> {

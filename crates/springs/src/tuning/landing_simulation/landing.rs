@@ -16,11 +16,7 @@ use dynamics::{
     fem::{Analysis, Change, Control, HistoryOutcome, Observer, Start, View, energy_on_one_foot},
     spring::{Chain, Springs},
 };
-use rocking::{
-    housner,
-    scalar::{Scalar, real},
-    structure::Body,
-};
+use rocking::{housner, structure::Body};
 
 /// A release at rest.
 #[derive(Clone, Debug)]
@@ -43,13 +39,13 @@ const RISE: (f64, f64) = (0.3, 0.8);
 const BEFORE_THE_NEXT: f64 = 1.7;
 
 /// What a landing left.
-pub(super) struct Left<S> {
+pub(super) struct Left {
     /// Share of the energy that is left.
-    pub kept: S,
+    pub kept: f64,
     /// The growing part.
-    pub growing: S,
+    pub growing: f64,
     /// Time with both feet in the air (s).
-    pub air: S,
+    pub air: f64,
 }
 
 /// Time from a lean of phi alpha to the upright, or back, by the small-angle theory (s).
@@ -97,23 +93,22 @@ impl Release {
     }
 
     /// Release the body on these springs; `None` unless the run finished.
-    pub(crate) fn run<S: Scalar>(
+    pub(crate) fn run(
         &self,
-        body: &Body<S>,
-        chains: &Springs<Chain<S>>,
+        body: &Body<f64>,
+        chains: &Springs<Chain>,
         (control, effort): (Control, &Effort),
-    ) -> Option<Left<S>> {
+    ) -> Option<Left> {
         let quiet = vec![0.0; self.samples];
-        let mut flight =
-            LandingWatch { release: self, since: None, air: S::zero(), growing: S::zero() };
+        let mut flight = LandingWatch { release: self, since: None, air: 0.0, growing: 0.0 };
         let case = Analysis {
             body: *body,
             springs: *chains,
-            start: Start::Leaning(real(self.lean)),
+            start: Start::Leaning(self.lean),
             dt: self.dt,
             accel: &quiet,
             vertical: &[],
-            scale: S::one(),
+            scale: 1.0,
             control,
         };
         let finish = case.observe(&mut flight);
@@ -131,15 +126,15 @@ impl Release {
 }
 
 /// Sums the growing part and the time with both feet in the air.
-struct LandingWatch<'a, S> {
+struct LandingWatch<'a> {
     release: &'a Release,
-    since: Option<S>,
-    air: S,
-    growing: S,
+    since: Option<f64>,
+    air: f64,
+    growing: f64,
 }
 
-impl<S: Scalar> Observer<S> for LandingWatch<'_, S> {
-    fn sample(&mut self, index: usize, view: &View<S>) -> ControlFlow<()> {
+impl Observer for LandingWatch<'_> {
+    fn sample(&mut self, index: usize, view: &View) -> ControlFlow<()> {
         let Release { rise, housner, p, .. } = self.release;
         if rise.contains(&index) {
             let (u, speed) = housner[index - rise.start];
@@ -148,7 +143,7 @@ impl<S: Scalar> Observer<S> for LandingWatch<'_, S> {
         ControlFlow::Continue(())
     }
 
-    fn event(&mut self, _: usize, change: Change, view: &View<S>) {
+    fn event(&mut self, _: usize, change: Change, view: &View) {
         match change {
             Change::LiftOff if !view.presses(0) && !view.presses(1) => self.since = Some(view.time),
             Change::TouchDown => {

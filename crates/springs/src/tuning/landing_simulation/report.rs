@@ -47,11 +47,7 @@ pub struct LandingRow {
 
 /// Landings of a body on these springs, which shall have the velocity restitution `restitution`;
 /// one whose run did not finish is left out.
-pub fn landings(
-    body: &Body<f64>,
-    chains: &Springs<Chain<f64>>,
-    restitution: f64,
-) -> Vec<LandingRow> {
+pub fn landings(body: &Body<f64>, chains: &Springs<Chain>, restitution: f64) -> Vec<LandingRow> {
     LEANS
         .par_iter()
         .with_max_len(1)
@@ -61,7 +57,7 @@ pub fn landings(
 
 fn landing(
     body: &Body<f64>,
-    chains: &Springs<Chain<f64>>,
+    chains: &Springs<Chain>,
     restitution: f64,
     lean: f64,
 ) -> Option<LandingRow> {
@@ -90,11 +86,11 @@ fn landing(
 /// A landing and the swing after it, up to just before the next impact.
 fn with_next<T>(
     body: &Body<f64>,
-    chains: &Springs<Chain<f64>>,
+    chains: &Springs<Chain>,
     restitution: f64,
     lean: f64,
     control: Control,
-    run: impl FnOnce(&Analysis<f64>) -> T,
+    run: impl FnOnce(&Analysis) -> T,
 ) -> T {
     let p = body.p_squared().sqrt();
     let next = next_peak(lean, restitution);
@@ -117,7 +113,7 @@ fn with_next<T>(
 /// `lean`, share of the weight.
 pub(super) fn ringing(
     body: &Body<f64>,
-    chains: &Springs<Chain<f64>>,
+    chains: &Springs<Chain>,
     restitution: f64,
     lean: f64,
     control: Control,
@@ -139,12 +135,12 @@ struct Speeds {
     touch_downs: usize,
 }
 
-impl Observer<f64> for Speeds {
-    fn sample(&mut self, _: usize, _: &View<f64>) -> ControlFlow<()> {
+impl Observer for Speeds {
+    fn sample(&mut self, _: usize, _: &View) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
 
-    fn event(&mut self, foot: usize, change: Change, view: &View<f64>) {
+    fn event(&mut self, foot: usize, change: Change, view: &View) {
         let speed = view.foot_speed(foot);
         match (change, self.landed) {
             (Change::TouchDown, None) => {

@@ -16,11 +16,7 @@ use dynamics::{
     fem::{Analysis, Control, HistoryOutcome, Start, View},
     spring::{Chain, Springs},
 };
-use rocking::{
-    housner,
-    scalar::{GRAVITY, Scalar, real},
-    structure::Body,
-};
+use rocking::{housner, scalar::GRAVITY, structure::Body};
 
 /// Durations t_r (s).
 const RAMPS_S: [f64; 5] = [0.045, 0.065, 0.095, 0.14, 0.2];
@@ -73,15 +69,15 @@ impl UpliftRamp {
     }
 
     /// The uplift error, in units of p R alpha / 4; infinite if the run did not finish.
-    pub(crate) fn uplift_error<S: Scalar>(
+    pub(crate) fn uplift_error(
         &self,
-        body: &Body<S>,
-        chains: &Springs<Chain<S>>,
+        body: &Body<f64>,
+        chains: &Springs<Chain>,
         (control, effort): (Control, &Effort),
-    ) -> S {
+    ) -> f64 {
         let end = self.accel.len() - 1;
-        let (mut from, mut to) = (S::zero(), S::zero());
-        let mut observer = |i: usize, view: &View<S>| {
+        let (mut from, mut to) = (0.0, 0.0);
+        let mut observer = |i: usize, view: &View| {
             if i == end - self.last {
                 from = view.x();
             } else if i == end {
@@ -96,13 +92,13 @@ impl UpliftRamp {
             dt: self.dt,
             accel: &self.accel,
             vertical: &[],
-            scale: S::one(),
+            scale: 1.0,
             control,
         };
         let finish = case.observe(&mut observer);
         finish.spend(effort);
         if finish.outcome != HistoryOutcome::Completed {
-            return real(f64::INFINITY);
+            return f64::INFINITY;
         }
         let p = body.p_squared().sqrt();
         let (from, to) = (from - self.housner.0, to - self.housner.1);

@@ -90,11 +90,7 @@ pub struct OmegaSearch {
 
 impl Benchmark<'_> {
     /// The finite element case of these springs.
-    pub(crate) fn case(
-        &self,
-        springs: &Springs<Design<f64>>,
-        control: Control,
-    ) -> Analysis<'_, f64> {
+    pub(crate) fn case(&self, springs: &Springs<Design<f64>>, control: Control) -> Analysis<'_> {
         Analysis {
             body: self.body,
             springs: springs.chains(self.body.mass),
@@ -129,7 +125,7 @@ impl Benchmark<'_> {
         let (su, sv) = (square(&self.housner.u), square(&self.housner.v));
         let case = self.case(springs, control);
         let (mut sum, mut sum_u, mut settled) = (0.0, 0.0, 0.0);
-        let finish: Finish<f64> = case.observe(&mut |i: usize, view: &View<f64>| {
+        let finish: Finish = case.observe(&mut |i: usize, view: &View| {
             if i == 0 {
                 settled = view.z();
             }

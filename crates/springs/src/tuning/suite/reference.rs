@@ -135,12 +135,7 @@ impl ReferenceMotion {
         push(&self.accel, self.vertical.as_deref().unwrap_or_default())
     }
 
-    fn case(
-        &self,
-        body: &Body<f64>,
-        springs: &Springs<Chain<f64>>,
-        control: Control,
-    ) -> Analysis<'_, f64> {
+    fn case(&self, body: &Body<f64>, springs: &Springs<Chain>, control: Control) -> Analysis<'_> {
         Analysis {
             body: *body,
             springs: *springs,
@@ -159,16 +154,16 @@ impl ReferenceMotion {
 pub(super) fn errors(
     trials: &[ReferenceMotion],
     body: &Body<f64>,
-    springs: &Springs<Chain<f64>>,
+    springs: &Springs<Chain>,
     (control, effort): (Control, &Effort),
 ) -> Vec<TrialErrors> {
     let pushes: Vec<Cow<[f64]>> = trials.iter().map(ReferenceMotion::push).collect();
-    let cases: Vec<Analysis<f64>> =
+    let cases: Vec<Analysis> =
         trials.iter().map(|trial| trial.case(body, springs, control)).collect();
     let followed = histories(&cases, |i| {
         ComparisonObserver::new(body, &trials[i].theta, &pushes[i]).with_forces(&trials[i].forces)
     });
-    let error = |((stream, finish), trial): ((ComparisonObserver, Finish<f64>), _)| {
+    let error = |((stream, finish), trial): ((ComparisonObserver, Finish), _)| {
         TrialErrors::of(trial, body, (&stream, &finish), effort)
     };
     followed.into_iter().zip(trials).map(error).collect()
@@ -178,9 +173,9 @@ pub(super) fn errors(
 pub(super) fn errors_watched(
     trial: &ReferenceMotion,
     body: &Body<f64>,
-    springs: &Springs<Chain<f64>>,
+    springs: &Springs<Chain>,
     (control, effort): (Control, &Effort),
-    watch: &mut impl Observer<f64>,
+    watch: &mut dyn Observer,
 ) -> TrialErrors {
     let push = trial.push();
     let stream = ComparisonObserver::new(body, &trial.theta, &push).with_forces(&trial.forces);
@@ -190,23 +185,23 @@ pub(super) fn errors_watched(
 }
 
 /// Compares a history, and shows it to another observer, who decides how long it is followed.
-struct WatchedComparison<'a, 'w, W> {
+struct WatchedComparison<'a, 'w> {
     stream: ComparisonObserver<'a>,
-    watch: &'w mut W,
+    watch: &'w mut dyn Observer,
 }
 
-impl<W: Observer<f64>> Observer<f64> for WatchedComparison<'_, '_, W> {
-    fn sample(&mut self, index: usize, view: &View<f64>) -> ControlFlow<()> {
+impl Observer for WatchedComparison<'_, '_> {
+    fn sample(&mut self, index: usize, view: &View) -> ControlFlow<()> {
         // a body that falls has toppled at the end, too
         let _ = self.stream.sample(index, view);
         self.watch.sample(index, view)
     }
 
-    fn step(&mut self, view: &View<f64>) {
+    fn step(&mut self, view: &View) {
         self.watch.step(view);
     }
 
-    fn event(&mut self, index: usize, change: Change, view: &View<f64>) {
+    fn event(&mut self, index: usize, change: Change, view: &View) {
         self.stream.event(index, change, view);
         self.watch.event(index, change, view);
     }
@@ -217,7 +212,7 @@ impl TrialErrors {
     fn of(
         trial: &ReferenceMotion,
         body: &Body<f64>,
-        (stream, finish): (&ComparisonObserver, &Finish<f64>),
+        (stream, finish): (&ComparisonObserver, &Finish),
         effort: &Effort,
     ) -> Self {
         finish.spend(effort);

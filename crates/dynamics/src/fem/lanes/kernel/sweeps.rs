@@ -29,7 +29,7 @@ use rocking::{
 
 impl Kernel {
     #[inline(always)]
-    fn model(&self, l: usize) -> Model<f64> {
+    fn model(&self, l: usize) -> Model {
         let f = |k: usize| self.fixed[k][l];
         let chain = |k: usize| Chain { k1: f(k), k2: f(k + 1), m2: f(k + 2), c: f(k + 3) };
         Model {
@@ -46,19 +46,19 @@ impl Kernel {
     }
 
     #[inline(always)]
-    fn feet(&self, l: usize) -> [Foot<f64>; 2] {
+    fn feet(&self, l: usize) -> [Foot; 2] {
         [self.foot(0, l), self.foot(1, l)]
     }
 
     #[inline(always)]
-    fn foot(&self, i: usize, l: usize) -> Foot<f64> {
+    fn foot(&self, i: usize, l: usize) -> Foot {
         let (closed, holds) = (self.closed[i][l] != 0.0, self.holds[i][l] != 0.0);
         let pressing = if holds { Contact::Stick } else { Contact::Slide };
         Foot { contact: if closed { pressing } else { Contact::Open }, anchor: self.anchor[i][l] }
     }
 
     #[inline(always)]
-    fn ground(&self, l: usize) -> Ground<f64> {
+    fn ground(&self, l: usize) -> Ground {
         Ground {
             start: column(&self.start, l),
             slope: column(&self.slope, l),
@@ -68,7 +68,7 @@ impl Kernel {
 
     /// Where lane l is half way, at the velocity that it has.
     #[inline(always)]
-    fn middle(&self, l: usize) -> Vector<f64> {
+    fn middle(&self, l: usize) -> Vector {
         let mut q = [0.0; N];
         for k in 0..N {
             q[k] = self.q0[k][l] + self.h[l] * self.v0[k][l] * 0.5;
@@ -81,10 +81,10 @@ impl Kernel {
     fn contact(
         &self,
         l: usize,
-        model: &Model<f64>,
-        feet: &[Foot<f64>; 2],
-        middle: &Vector<f64>,
-    ) -> [FootForce<f64>; 2] {
+        model: &Model,
+        feet: &[Foot; 2],
+        middle: &Vector,
+    ) -> [FootForce; 2] {
         let start = column(&self.q0, l);
         let [at_start, half_way] = [
             model.contact_at(&pose(&start), &start, feet),
@@ -105,7 +105,7 @@ impl Kernel {
     pub(super) fn factor(&mut self) {
         for l in 0..WIDTH {
             let (model, feet, h) = (self.model(l), self.feet(l), self.h[l]);
-            let middle: Vector<f64> = self.middle(l);
+            let middle: Vector = self.middle(l);
             let contact = self.contact(l, &model, &feet, &middle);
             let (masses, closed) = (model.masses(&feet), [feet[0].closed(), feet[1].closed()]);
             let chains = Chains::new(&model, &feet, h * GAMMA, &|x| x);
@@ -120,7 +120,7 @@ impl Kernel {
         }
         for l in 0..WIDTH {
             let (model, feet, h) = (self.model(l), self.feet(l), self.h[l]);
-            let middle: Vector<f64> = self.middle(l);
+            let middle: Vector = self.middle(l);
             let contact = self.contact(l, &model, &feet, &middle);
             let (masses, closed) = (model.masses(&feet), [feet[0].closed(), feet[1].closed()]);
             let chains = Chains::new(&model, &feet, h * EIGENVALUE, &complex);
@@ -315,7 +315,7 @@ impl Kernel {
 
     /// Stage j's share of the work of the base excitation and of what is dissipated.
     #[inline(always)]
-    fn work(&self, model: &Model<f64>, l: usize, j: usize) -> (f64, f64) {
+    fn work(&self, model: &Model, l: usize, j: usize) -> (f64, f64) {
         let (h, q, v) = (self.h[l], column(&self.q[j], l), column(&self.v[j], l));
         let weight = h * A[2][j];
         let input = model.input_power(&v, self.ground(l).after(h, C[j])) * weight;
@@ -355,7 +355,7 @@ impl Kernel {
 
 /// Sine and cosine within their polynomials' reach.
 #[inline(always)]
-fn pose(q: &Vector<f64>) -> Pose<f64> {
+fn pose(q: &Vector) -> Pose {
     let (sin, cos) = small_sin_cos(q[TH]);
     Pose { sin, cos }
 }
