@@ -6,7 +6,8 @@ use clap::Args;
 
 use super::{CommandError, common::RecordOptions, terminal};
 use decks::{
-    ACCURACY, DeckFormat, ExportError, SteppedDeck, Stepping, deck_of, stepped_deck, with_inertia,
+    ACCURACY, CornerProgram, DeckFormat, ExportError, SteppedDeck, Stepping, deck_of, stepped_deck,
+    with_inertia,
 };
 use frames::fem::{ElasticAnalysis, ElasticStart};
 use run_folder::{
@@ -100,13 +101,13 @@ fn elastic(
     let assembled = parameters.assembled().map_err(|e| CommandError::Result(e.to_string()))?;
     match (stepping(o, parameters.program.as_ref()), &parameters.program) {
         (Stepping::Events, _) => {}
-        (Stepping::Even, Some(program)) => {
+        (stepping, Some(program)) => {
+            let program = CornerProgram::new(&assembled, program, stepping)?;
             let until = predictable_to(o, &parameters.findings);
-            let deck = stepped_deck_of(&assembled, program, &record, o.format, until)?;
+            let deck = stepped_deck_of(&assembled, &program, &record, o.format, until)?;
             return Ok(told(deck, excitation.line()));
         }
-        (Stepping::Even, None) => return Err(ExportError::NoProgram.into()),
-        (Stepping::Touches, _) => return Err(ExportError::TouchesOfElastic.into()),
+        (_, None) => return Err(ExportError::NoProgram.into()),
     }
     let springs = parameters.chains();
     let case = ElasticAnalysis {

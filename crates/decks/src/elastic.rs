@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use super::{
-    DeckFormat, ExportError,
+    CornerProgram, DeckFormat, ExportError,
     language::{Language, PYTHON, TCL, record_note},
     model::{STEPS_PER_PERIOD, digits, whole},
     plain::{self, NamedSprings},
@@ -14,7 +14,6 @@ use super::{
 use dynamics::spring::{Chain, Springs};
 use frames::frame::{Frame, FrameDamper, FrameLayout, FrameMember, FrameTendon, NodePoint};
 use rocking::scalar::GRAVITY;
-use springs::parameters::program::{CornerUnits, ProgramRow};
 use strong_motion::Record;
 
 /// Stiffness of the arms that stand for a rigid footing, over the stiffest gap spring k1: as for a
@@ -71,7 +70,7 @@ pub struct ElasticDeck<'a> {
     pub accuracy: f64,
     /// The program with steps of one size that the springs are for, in place of steps that follow
     /// touches.
-    pub program: Option<&'a ProgramRow<CornerUnits>>,
+    pub program: Option<&'a CornerProgram>,
 }
 
 impl ElasticDeck<'_> {
@@ -96,13 +95,16 @@ impl ElasticDeck<'_> {
     fn sap2000(&self, format: DeckFormat) -> Result<sap2000::SapModel<'_>, ExportError> {
         self.without_members(format)?;
         let even = self.even()?;
+        if even.is_some_and(|even| even.touches > 1) {
+            return Err(ExportError::TouchesInTables);
+        }
         even.iter().try_for_each(EvenSteps::in_tables)?;
         Ok(sap2000::SapModel::elastic(self, even))
     }
 
     /// Settings of steps of one size, if the springs are for such.
     fn even(&self) -> Result<Option<EvenSteps>, ExportError> {
-        self.program.map(|row| EvenSteps::new(row, 1)).transpose()
+        self.program.map(CornerProgram::steps).transpose()
     }
 
     /// The corners from the left, and what is under them.

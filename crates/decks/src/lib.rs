@@ -16,6 +16,7 @@
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
 mod beside;
+mod corner_program;
 mod elastic;
 mod expectation;
 mod language;
@@ -30,6 +31,7 @@ pub mod verify;
 
 use thiserror::Error;
 
+pub use corner_program::CornerProgram;
 use dynamics::fem::History;
 pub use elastic::ElasticDeck;
 pub use expectation::{DeckExpectation, foretold_rigid};
@@ -43,9 +45,7 @@ use springs::{
     predictability::{simulate, width_sensitivity},
 };
 pub use step_count::deck_steps;
-pub use stepping::{
-    SteppedDeck, Stepping, corner_history, even_deck, samples_to, stepped_deck, stepped_history,
-};
+pub use stepping::{SteppedDeck, Stepping, even_deck, samples_to, stepped_deck, stepped_history};
 use strong_motion::Record;
 
 /// The stepping routine of decks for openseespy: `class Steps`, in need of `math`, `sys` and `ops`.
@@ -229,8 +229,6 @@ pub enum ExportError {
             --integrator: hht:-0.333 or newmark, in OpenSees also trbdf2 or backward-euler"
     )]
     Integrator { name: String, program: &'static str },
-    #[error("export: substeps at touches are for rigid bodies; give --stepping even, or events")]
-    TouchesOfElastic,
     #[error("export: {message}")]
     Steps { message: String },
     #[error(

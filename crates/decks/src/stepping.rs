@@ -1,24 +1,17 @@
 //! Decks for programs with steps of one size: their springs, their settings, and what the emulation
 //! of such a program finds of them.
 
-use std::ops::ControlFlow;
-
 use fixed_steps::{
-    FixedStepAnalysis, FixedStepBody, FixedStepFrame, FixedStepHistory, FixedStepOutcome,
-    FixedStepSprings, GaveUp, Integrator, StepSettings,
+    FixedStepAnalysis, FixedStepBody, FixedStepHistory, FixedStepOutcome, FixedStepSprings, GaveUp,
+    Integrator, StepSettings,
     iteration::{ConvergenceTest, Iteration},
     recipe::TOLERANCE,
 };
-use frames::{
-    Mechanics,
-    frame::{EquilibriumError, Frame},
-};
-use nalgebra::DVector;
 use rocking::{motion::Motion, scalar::GRAVITY, structure::Structure};
 use springs::{
     parameters::{
         Parameters,
-        program::{CornerUnits, ProgramRow, ProgramTest},
+        program::{ProgramRow, ProgramTest},
     },
     results::NotToBeUsed,
     tuning::fixed_steps::design,
@@ -47,6 +40,11 @@ pub enum Stepping {
 impl Stepping {
     const ALL: [(&'static str, Self); 3] =
         [("events", Self::Events), ("even", Self::Even), ("touches", Self::Touches)];
+
+    /// Substeps of a step at touches; 1: none.
+    pub(crate) fn at_touches(self) -> usize {
+        if self == Self::Touches { AT_TOUCHES } else { 1 }
+    }
 }
 
 impl std::str::FromStr for Stepping {
@@ -92,8 +90,9 @@ impl EvenSteps {
             program: "any program",
         };
         let unbalance = match row.converged {
-            ProgramTest::UnbalanceOverWeight(most) => Some(most),
-            ProgramTest::IncrementM(_) => None,
+            // the program's own test knows no substeps
+            ProgramTest::UnbalanceOverWeight(most) if touches == 1 => Some(most),
+            _ => None,
         };
         Ok(Self {
             step: row.step_s,
@@ -114,7 +113,7 @@ impl EvenSteps {
     }
 
     /// As the emulation steps.
-    fn settings(&self, weight: f64) -> StepSettings {
+    pub(crate) fn settings(&self, weight: f64) -> StepSettings {
         let test = match self.unbalance {
             Some(most) => ConvergenceTest::Unbalance(most * weight),
             None => ConvergenceTest::Increment(self.tolerance()),
@@ -178,15 +177,14 @@ impl Stepped {
         };
         // as decks hold it
         let program = Parameters { structure: with_inertia(&program.structure), ..program };
-        let touches = if stepping == Stepping::Touches { AT_TOUCHES } else { 1 };
+        let touches = stepping.at_touches();
         let given = parameters.structure;
         let adds_inertia =
             program.structure.rotational_inertia_kgm2 != given.rotational_inertia_kgm2;
-        let mut steps = EvenSteps { adds_inertia, ..EvenSteps::new(row, touches)? };
+        let steps = EvenSteps { adds_inertia, ..EvenSteps::new(row, touches)? };
         if touches == 1 {
             return Ok(Self { parameters: program, steps, given });
         }
-        steps.unbalance = None;
         let (body, substep) = (program.structure.body(), steps.step / touches as f64);
         let design = design(&body, substep);
         let springs =
@@ -338,36 +336,4 @@ pub fn even_deck(
     until: Option<f64>,
 ) -> Result<SteppedDeck, ExportError> {
     Stepped::for_format(parameters, format, Stepping::Even)?.deck(record, format, history, until)
-}
-
-/// An elastic structure on its springs for a program with steps of one size, emulated through a
-/// record: its coordinates at every sample, and when the program gives up, if it does (s).
-///
-/// # Errors
-/// An integrator that is not known; as many units as corners are needed.
-pub fn corner_history(
-    frame: &Frame,
-    row: &ProgramRow<CornerUnits>,
-    record: &Record,
-) -> Result<(Vec<Vec<f64>>, Option<f64>), ExportError> {
-    let failed = |e: EquilibriumError| ExportError::Steps { message: e.to_string() };
-    let springs = row.units.chains();
-    let still = DVector::zeros(frame.size());
-    let weight = frame.whole_mass(&still) * GRAVITY;
-    let model = FixedStepFrame::new(frame, &springs).map_err(failed)?;
-    let settings = EvenSteps::new(row, 1)?.settings(weight);
-    let analysis = FixedStepAnalysis::new(&model, settings, record.dt, &record.accel);
-    let (analysis, size) = (FixedStepAnalysis { vertical: record.up(), ..analysis }, frame.size());
-    let mut all = Vec::with_capacity(record.len());
-    let (outcome, _) = analysis
-        .follow(|_, q| {
-            all.push(q[..size].to_vec());
-            ControlFlow::Continue(())
-        })
-        .map_err(failed)?;
-    let gives_up = match outcome {
-        FixedStepOutcome::GaveUp(GaveUp { time, .. }) => Some(time),
-        _ => None,
-    };
-    Ok((all, gives_up))
 }

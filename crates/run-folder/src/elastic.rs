@@ -11,7 +11,7 @@ use crate::{
     tables::{Instants, csv_row},
     texts::RunTexts,
 };
-use decks::{ACCURACY, DeckFormat, ElasticDeck, ExportError, corner_history, samples_to};
+use decks::{ACCURACY, CornerProgram, DeckFormat, ElasticDeck, ExportError, samples_to};
 use dynamics::spring::{Chain, Springs};
 use figures::Figure;
 use frames::{
@@ -118,7 +118,7 @@ pub fn deck(
 /// The same of any springs and history, which is compared up to a time (s) if one is given.
 fn deck_of(
     assembled: &Assembled,
-    (springs, program): (&[Springs<Chain>], Option<&ProgramRow<CornerUnits>>),
+    (springs, program): (&[Springs<Chain>], Option<&CornerProgram>),
     record: &Record,
     (history, until): (&[Vec<f64>], Option<f64>),
     (format, accuracy): (DeckFormat, f64),
@@ -197,7 +197,7 @@ impl ElasticRun {
         }
         let row = parameters.program.as_ref();
         let program_history =
-            row.and_then(|row| corner_history(&assembled.frame, row, &record).ok());
+            row.and_then(|row| CornerProgram::even(row).history(&assembled, &record).ok());
         let mut run = Self {
             case,
             assembled,

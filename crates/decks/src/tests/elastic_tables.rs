@@ -1,13 +1,14 @@
 //! SAP2000 tables of elastic structures.
 
 use super::{Tables, number, read_s2k, refers_to_what_it_defines};
-use crate::{DeckFormat, ElasticDeck, ExportError};
+use crate::{CornerProgram, DeckFormat, ElasticDeck, ExportError, Stepping};
 use dynamics::spring::{Chain, Springs};
 use frames::{assembled::Assembled, structure::ElasticStructure};
 use rocking::{
     members::{Damper, Members},
     scalar::GRAVITY,
 };
+use springs::parameters::program::{CornerUnits, ProgramRow};
 use strong_motion::Record;
 
 const PIER: &str = "kind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\n\
@@ -34,13 +35,22 @@ fn springs(corners: usize) -> Vec<Springs<Chain>> {
 
 fn deck(model: &Assembled, record: &Record) -> Result<String, ExportError> {
     let springs = springs(model.frame.places().len());
+    deck_of(model, record, (&springs, None), DeckFormat::Sap2000)
+}
+
+fn deck_of(
+    model: &Assembled,
+    record: &Record,
+    (springs, program): (&[Springs<Chain<f64>>], Option<&CornerProgram>),
+    format: DeckFormat,
+) -> Result<String, ExportError> {
     let top = model.watched[0].top;
     let motion = [[0.0, -1e-3], [0.02, -0.5e-3], [-0.03, 1e-3]];
     ElasticDeck {
         title: "a structure",
         layout: &model.layout,
         frame: &model.frame,
-        springs: &springs,
+        springs,
         record,
         samples: 3,
         compared: 3,
@@ -48,9 +58,9 @@ fn deck(model: &Assembled, record: &Record) -> Result<String, ExportError> {
         alpha: 0.1,
         frequency_hz: 2.0,
         accuracy: 0.002,
-        program: None,
+        program,
     }
-    .text(DeckFormat::Sap2000)
+    .text(format)
 }
 
 fn tables(text: &str) -> (Assembled, Tables) {
@@ -181,4 +191,58 @@ fn what_the_tables_cannot_hold_is_named() {
     let damped = Assembled::with_members(structure(PIER), members).unwrap();
     let error = deck(&damped, &Record::el_centro()).unwrap_err().to_string();
     assert!(error.contains("damper is not written for sap2000"), "{error}");
+}
+
+/// A deck for the substeps at touches: springs for these in the same places, at the same K, and
+/// twenty substeps; tables have no loop for them.
+#[test]
+fn substeps_at_touches_have_springs_of_their_own_and_no_tables() {
+    let model = Assembled::new(structure(PIER)).unwrap();
+    let mut row = program_row(0.001);
+    let even = CornerProgram::new(&model, &row, Stepping::Even).unwrap();
+    let touches = CornerProgram::new(&model, &row, Stepping::Touches).unwrap();
+    assert_eq!(even.row, row);
+    assert_eq!(touches.row.units.springs.len(), row.units.springs.len());
+    for (fine, coarse) in touches.row.units.chains().iter().zip(row.units.chains()) {
+        assert!(close(fine.vertical.k2 / fine.vertical.k1, 0.25));
+        // k_e goes with one over the step (`springs::tuning::elastic::program`)
+        let other = CornerProgram::new(&model, &program_row(0.002), Stepping::Touches).unwrap();
+        let other = other.row.units.chains()[0];
+        assert!(close(fine.vertical.k1, 2.0 * other.vertical.k1));
+        assert_ne!(fine.vertical.k1, coarse.vertical.k1);
+    }
+    let record = Record::el_centro();
+    let of = |program: &CornerProgram, format| {
+        let springs = program.row.units.chains();
+        deck_of(&model, &record, (&springs, Some(program)), format)
+    };
+    let text = of(&touches, DeckFormat::OpenSeesPy).unwrap();
+    assert!(text.contains("TOUCHES = 20\n") && !text.contains('@'));
+    assert!(of(&even, DeckFormat::OpenSeesPy).unwrap().contains("TOUCHES = 1\n"));
+    let tcl = of(&touches, DeckFormat::OpenSeesTcl).unwrap();
+    assert!(tcl.contains("set touches 20\n") && !tcl.contains('@'));
+    let error = of(&touches, DeckFormat::Sap2000).unwrap_err().to_string();
+    assert!(error.contains("no loop"), "{error}");
+    row.units.springs.clear();
+    let error = CornerProgram::new(&model, &row, Stepping::Touches).unwrap_err().to_string();
+    assert!(error.contains("no springs"), "{error}");
+}
+
+/// A program of this step (s), on springs at K = 1/4.
+fn program_row(step: f64) -> ProgramRow<CornerUnits> {
+    let unit = |k1: f64| {
+        let k2 = 0.25 * k1;
+        format!("{{ k1_n_per_m = {k1:?}, k2_n_per_m = {k2:?}, m2_kg = 2e4, c_ns_per_m = 3e7 }}")
+    };
+    let corner = |x: f64| {
+        let (vertical, horizontal) = (unit(1e10), unit(4e10));
+        format!("[[springs]]\nx_m = {x:?}\nvertical = {vertical}\nhorizontal = {horizontal}\n")
+    };
+    let text = format!(
+        "step_s = {step}\nintegrator = 'trbdf2'\nsubsteps = 16\nnewton_iterations = 30\n\
+         converged = {{ increment_m = 1e-6 }}\nexpected = {{ floor = 0.01 }}\n{}{}",
+        corner(-2.0),
+        corner(2.0)
+    );
+    toml::from_str(&text).unwrap()
 }

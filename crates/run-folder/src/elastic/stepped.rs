@@ -1,7 +1,7 @@
 //! Decks of an elastic structure for programs with steps of one size, and what such steps find.
 
 use super::{ElasticRun, deck_of};
-use decks::{ACCURACY, DeckFormat, ExportError, SteppedDeck, corner_history};
+use decks::{ACCURACY, CornerProgram, DeckFormat, ExportError, SteppedDeck};
 use frames::assembled::Assembled;
 use report::predictable_to;
 use springs::parameters::program::{CornerUnits, ProgramOnRecord, ProgramRow};
@@ -11,30 +11,30 @@ use strong_motion::Record;
 /// (s).
 pub(super) type CornerHistory = (Vec<Vec<f64>>, Option<f64>);
 
-/// The deck for a program with steps of one size, on its springs. It compares its history up to
+/// The deck for a program with fixed time steps, on its springs. It compares its history up to
 /// when the motion can be predicted, `until` (s); all of it if there is no such time.
 ///
 /// # Errors
 /// As of a deck whose steps follow touches; an integrator that the format has not.
 pub fn stepped_deck(
     assembled: &Assembled,
-    program: &ProgramRow<CornerUnits>,
+    program: &CornerProgram,
     record: &Record,
     format: DeckFormat,
     until: Option<f64>,
 ) -> Result<SteppedDeck, ExportError> {
-    let history = corner_history(&assembled.frame, program, record)?;
+    let history = program.history(assembled, record)?;
     stepped_deck_of((assembled, program), record, format, &history, until)
 }
 
 fn stepped_deck_of(
-    (assembled, program): (&Assembled, &ProgramRow<CornerUnits>),
+    (assembled, program): (&Assembled, &CornerProgram),
     record: &Record,
     format: DeckFormat,
     (history, gives_up_s): &CornerHistory,
     until: Option<f64>,
 ) -> Result<SteppedDeck, ExportError> {
-    let springs = (&program.units.chains()[..], Some(program));
+    let springs = (&program.row.units.chains()[..], Some(program));
     let text = deck_of(assembled, springs, record, (history, until), (format, ACCURACY))?;
     Ok(SteppedDeck { text, gives_up_s: *gives_up_s })
 }
@@ -62,12 +62,13 @@ impl ElasticRun {
         format: DeckFormat,
     ) -> Result<SteppedDeck, ExportError> {
         let until = predictable_to(&self.parameters.findings);
+        let program = CornerProgram::even(row);
         match &self.program_history {
             Some(history) => {
-                let model = (&self.assembled, row);
+                let model = (&self.assembled, &program);
                 stepped_deck_of(model, &self.record, format, history, until)
             }
-            None => stepped_deck(&self.assembled, row, &self.record, format, until),
+            None => stepped_deck(&self.assembled, &program, &self.record, format, until),
         }
     }
 }

@@ -114,14 +114,11 @@ impl ElasticProgramSprings {
     }
 
     fn at(standing: &Standing, k: f64, program: FixedStepProgram, body: &Body<f64>) -> Self {
-        let p = body.p_squared().sqrt();
-        let bases = standing.footings.len().max(1) as f64;
-        let stance = FixedStepDesign::RECIPE.stance;
-        let in_series = stance * standing.mass / bases * p / (body.alpha().powi(2) * program.step);
-        let springs = with_vertical(standing, in_series * (1.0 + k) / k, k);
+        let springs = for_step(standing, k, program.step, body);
         let k1 = springs.corners.iter().map(|corner| corner.vertical.k1).fold(0.0, f64::max);
         let settings = program.settings(k1, standing.mass);
-        Self { program, springs, settings, floor: FLOOR * p * program.step, measured: None }
+        let floor = FLOOR * body.p_squared().sqrt() * program.step;
+        Self { program, springs, settings, floor, measured: None }
     }
 
     /// Lost motions, then the median of rotations.
@@ -143,6 +140,20 @@ impl ElasticProgramSprings {
         let all: Vec<StepErrors> = all.into_iter().flatten().collect();
         (!all.is_empty()).then(|| ErrorsOverMotions::of(all))
     }
+}
+
+/// Springs for a step (s), at K.
+fn for_step(standing: &Standing, k: f64, step: f64, body: &Body<f64>) -> CornerSprings {
+    let (p, bases) = (body.p_squared().sqrt(), standing.footings.len().max(1) as f64);
+    let stance = FixedStepDesign::RECIPE.stance;
+    let in_series = stance * standing.mass / bases * p / (body.alpha().powi(2) * step);
+    with_vertical(standing, in_series * (1.0 + k) / k, k)
+}
+
+/// Springs for the substeps at touches of a structure whose springs for the program are at K, the
+/// substep in s; none if the structure does not stand.
+pub fn for_substep(model: &Assembled, k: f64, substep: f64) -> Option<CornerSprings> {
+    Some(for_step(&stand(model)?, k, substep, &model.structure.body()))
 }
 
 /// A history of the structure in a program beside the reference's.
