@@ -57,7 +57,7 @@ impl CornerProgram {
         let k = first.ok_or_else(|| failed("the program has no springs; tune run makes them"))?;
         let found = for_substep(assembled, k, row.step_s / touches as f64)
             .ok_or_else(|| failed("the structure does not stand; make it wider"))?;
-        let corner = |(of, springs): (&CornerRow, &Springs<Chain<f64>>)| CornerRow {
+        let corner = |(of, springs): (&CornerRow, &Springs<Chain>)| CornerRow {
             vertical: (&springs.vertical).into(),
             horizontal: (&springs.horizontal).into(),
             ..*of

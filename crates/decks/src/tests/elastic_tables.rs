@@ -41,7 +41,7 @@ fn deck(model: &Assembled, record: &Record) -> Result<String, ExportError> {
 fn deck_of(
     model: &Assembled,
     record: &Record,
-    (springs, program): (&[Springs<Chain<f64>>], Option<&CornerProgram>),
+    (springs, program): (&[Springs<Chain>], Option<&CornerProgram>),
     format: DeckFormat,
 ) -> Result<String, ExportError> {
     let top = model.watched[0].top;
