@@ -155,9 +155,7 @@ impl Analysis<'_> {
         let &Self { dt, accel, vertical, scale, .. } = self;
         run::GroundMotion { dt, accel, vertical, scale }
     }
-}
 
-impl Analysis<'_> {
     /// Run the case and keep its history.
     pub fn simulate(&self) -> History {
         let mut recorder = Recorder::new(self.accel.len());

@@ -4,13 +4,9 @@
 //! ties X to Z, and the dampers' turning levers make the body's 3 x 3 matrix unsymmetric, so that
 //! it is factored whole.
 
-use std::ops::{Add, Neg, Sub};
-
-use num_traits::Num;
-
 use super::{
     model::{Foot, Model, N, State, TH, X, Z, ax, az},
-    newton::{Chains, absorbers, reach, share},
+    newton::{Chains, MatrixNumber, absorbers, reach, share},
 };
 
 /// The condensed matrix for one eigenvalue, ready to solve with.
@@ -21,7 +17,7 @@ pub(super) struct Coupled<T> {
     body: [[T; 3]; 3],
 }
 
-impl<T: Num + Copy + Neg<Output = T>> Coupled<T> {
+impl<T: MatrixNumber> Coupled<T> {
     /// Factor at `state` for s = h lambda.
     pub(crate) fn new(
         chains: &Chains<T>,
@@ -29,21 +25,20 @@ impl<T: Num + Copy + Neg<Output = T>> Coupled<T> {
         state: &State,
         feet: &[Foot; 2],
         s: T,
-        lift: &impl Fn(f64) -> T,
     ) -> Self {
         let (contact, masses) = (model.contact(&state.q, feet), model.masses(feet));
-        let [left, right] = [0, 1].map(|i| share(&chains.0[i], &contact[i], s, lift));
+        let [left, right] = [0, 1].map(|i| share(&chains.0[i], &contact[i], s));
         let [xx, zz, tt, x_th, z_th] = std::array::from_fn(|k| left.0[k] + right.0[k]);
         let mut body = [[xx, T::zero(), x_th], [T::zero(), zz, z_th], [x_th, z_th, tt]];
         for k in [X, Z, TH] {
-            body[k][k] = body[k][k] + lift(masses[k]);
+            body[k][k] = body[k][k] + T::from(masses[k]);
         }
         for element in model.elements.each() {
             let tangent = element.tangent(&state.q, &state.v);
             for (row, (k, c)) in body.iter_mut().zip(tangent.stiffness.iter().zip(&tangent.damping))
             {
                 for j in 0..3 {
-                    row[j] = row[j] + (s * s * lift(k[j]) + s * lift(c[j]));
+                    row[j] = row[j] + (s * s * T::from(k[j]) + s * T::from(c[j]));
                 }
             }
         }
@@ -61,29 +56,20 @@ impl<T: Num + Copy + Neg<Output = T>> Coupled<T> {
         Self { lever: [left.1, right.1], body }
     }
 
-    /// Solve for the accelerations' correction; `times` multiplies an entry of the right side by
-    /// one of the matrix.
-    pub(crate) fn solve<V>(
-        &self,
-        chains: &Chains<T>,
-        r: &[V; N],
-        times: impl Fn(V, T) -> V + Copy,
-    ) -> [V; N]
-    where
-        V: Copy + Add<Output = V> + Sub<Output = V>,
-    {
+    /// Solve for the accelerations' correction.
+    pub(crate) fn solve(&self, chains: &Chains<T>, r: &[T; N]) -> [T; N] {
         let of_foot = |i: usize| [r[ax(i)], r[az(i)]];
-        let [left, right] = [0, 1].map(|i| reach(&chains.0[i], self.lever[i], of_foot(i), times));
+        let [left, right] = [0, 1].map(|i| reach(&chains.0[i], self.lever[i], of_foot(i)));
         let [x, z, th] = [X, Z, TH].map(|k| r[k] + (left[k] + right[k]));
         let u = &self.body;
-        let over = |x: V, pivot: T| times(x, T::one() / pivot);
-        let z = z - times(x, u[Z][X]);
-        let th = th - times(x, u[TH][X]) - times(z, u[TH][Z]);
+        let over = |x: T, pivot: T| x * (T::one() / pivot);
+        let z = z - x * u[Z][X];
+        let th = th - x * u[TH][X] - z * u[TH][Z];
         let th = over(th, u[TH][TH]);
-        let z = over(z - times(th, u[Z][TH]), u[Z][Z]);
-        let x = over(x - times(z, u[X][Z]) - times(th, u[X][TH]), u[X][X]);
+        let z = over(z - th * u[Z][TH], u[Z][Z]);
+        let x = over(x - z * u[X][Z] - th * u[X][TH], u[X][X]);
         let [[lx, lz], [rx, rz]] =
-            [0, 1].map(|i| absorbers(&chains.0[i], self.lever[i], of_foot(i), [x, z, th], times));
+            [0, 1].map(|i| absorbers(&chains.0[i], self.lever[i], of_foot(i), [x, z, th]));
         [x, z, th, lx, lz, rx, rz]
     }
 }

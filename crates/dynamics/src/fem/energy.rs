@@ -18,8 +18,7 @@ pub struct Energy {
 impl Energy {
     /// The account of a run that begins with this much stored (J).
     pub fn new(stored: f64) -> Self {
-        let zero = 0.0;
-        Self { initial: stored, stored, input: zero, dissipated: zero, released: zero }
+        Self { initial: stored, stored, ..Self::default() }
     }
 
     /// Book a step.

@@ -149,15 +149,3 @@ pub fn embedded(stages: [f64; 3], start: f64) -> f64 {
 
 /// ALPHA + i BETA.
 pub const EIGENVALUE: Complex<f64> = Complex::new(ALPHA, BETA);
-
-/// A real number as a complex one.
-#[inline(always)]
-pub fn complex(x: f64) -> Complex<f64> {
-    Complex::new(x, 0.0)
-}
-
-/// A complex number times another.
-#[inline(always)]
-pub(crate) fn times(x: Complex<f64>, t: Complex<f64>) -> Complex<f64> {
-    Complex::new(x.re * t.re - x.im * t.im, x.re * t.im + x.im * t.re)
-}

@@ -5,11 +5,7 @@
 //! (5) with s^-1 for i omega. The body's 3 x 3 matrix is an arrow (X and Z meet only in theta), so
 //! it too is solved without a general factorisation.
 
-use std::ops::{Add, Neg, Sub};
-
-use num_traits::{Num, Zero};
-
-pub(super) use super::condensed::Condensed;
+pub(super) use super::condensed::{Condensed, MatrixNumber};
 use super::model::{Contact, Foot, FootForce, Model, N, State, TH, Vector, X, Z, ax, az};
 use super::{coupled::Coupled, slipping::Slipping};
 use crate::spring::Springs;
@@ -19,18 +15,12 @@ use crate::spring::Springs;
 #[derive(Clone, Copy)]
 pub(super) struct Chains<T>(pub [[Condensed<T>; 2]; 2]);
 
-impl<T: Num + Copy> Chains<T> {
+impl<T: MatrixNumber> Chains<T> {
     #[inline(always)]
-    pub(crate) fn new(model: &Model, feet: &[Foot; 2], s: T, lift: &impl Fn(f64) -> T) -> Self {
+    pub(crate) fn new(model: &Model, feet: &[Foot; 2], s: T) -> Self {
         let Springs { vertical: v, horizontal: h } = &model.springs;
-        let left = [
-            Condensed::new(h, feet[0].holds(), s, lift),
-            Condensed::new(v, feet[0].closed(), s, lift),
-        ];
-        let right = [
-            Condensed::new(h, feet[1].holds(), s, lift),
-            Condensed::new(v, feet[1].closed(), s, lift),
-        ];
+        let left = [Condensed::new(h, feet[0].holds(), s), Condensed::new(v, feet[0].closed(), s)];
+        let right = [Condensed::new(h, feet[1].holds(), s), Condensed::new(v, feet[1].closed(), s)];
         Self([left, right])
     }
 }
@@ -43,23 +33,17 @@ pub(super) struct Newton<T> {
 }
 
 #[cfg(test)]
-impl<T: Num + Copy + Neg<Output = T>> Newton<T> {
+impl<T: MatrixNumber> Newton<T> {
     /// Factor at `state` for s = h lambda.
-    pub(crate) fn new(
-        model: &Model,
-        state: &State,
-        feet: &[Foot; 2],
-        s: T,
-        lift: impl Fn(f64) -> T,
-    ) -> Self {
-        let chains = Chains::new(model, feet, s, &lift);
-        let matrix = CondensedMatrix::new(&chains, model, state, feet, s, lift);
+    pub(crate) fn new(model: &Model, state: &State, feet: &[Foot; 2], s: T) -> Self {
+        let chains = Chains::new(model, feet, s);
+        let matrix = CondensedMatrix::new(&chains, model, state, feet, s);
         Self { chains, matrix }
     }
 
     /// Solve for the accelerations' correction.
     pub(crate) fn solve(&self, r: &[T; N]) -> [T; N] {
-        self.matrix.solve(&self.chains, r, |x, t| x * t)
+        self.matrix.solve(&self.chains, r)
     }
 }
 
@@ -72,7 +56,7 @@ pub(super) enum CondensedMatrix<T> {
     Slipping(Box<Slipping<T>>),
 }
 
-impl<T: Num + Copy + Neg<Output = T>> CondensedMatrix<T> {
+impl<T: MatrixNumber> CondensedMatrix<T> {
     /// Factor at `state` for s = h lambda.
     #[inline(always)]
     pub(crate) fn new(
@@ -81,15 +65,14 @@ impl<T: Num + Copy + Neg<Output = T>> CondensedMatrix<T> {
         state: &State,
         feet: &[Foot; 2],
         s: T,
-        lift: impl Fn(f64) -> T,
     ) -> Self {
         if !model.elements.is_empty() {
-            return Self::Coupled(Box::new(Coupled::new(chains, model, state, feet, s, &lift)));
+            return Self::Coupled(Box::new(Coupled::new(chains, model, state, feet, s)));
         }
         if feet.iter().any(|foot| matches!(foot.contact, Contact::Slip(_))) {
-            return Self::Slipping(Box::new(Slipping::new(model, state, feet, s, &lift)));
+            return Self::Slipping(Box::new(Slipping::new(model, state, feet, s)));
         }
-        Self::rigid(chains, model, &model.contact(&state.q, feet), feet, s, lift)
+        Self::rigid(chains, model, &model.contact(&state.q, feet), feet, s)
     }
 
     /// Factor for a body whose feet's forces are `contact`.
@@ -100,28 +83,18 @@ impl<T: Num + Copy + Neg<Output = T>> CondensedMatrix<T> {
         contact: &[FootForce; 2],
         feet: &[Foot; 2],
         s: T,
-        lift: impl Fn(f64) -> T,
     ) -> Self {
         let closed = feet.map(|foot| foot.closed() || !model.skip_open);
-        Self::Rigid(Rigid::new(chains, contact, &model.masses(feet), closed, s, lift))
+        Self::Rigid(Rigid::new(chains, contact, &model.masses(feet), closed, s))
     }
 
-    /// Solve for the accelerations' correction; `times` multiplies an entry of the right side by
-    /// one of the matrix.
+    /// Solve for the accelerations' correction.
     #[inline(always)]
-    pub(crate) fn solve<V>(
-        &self,
-        chains: &Chains<T>,
-        r: &[V; N],
-        times: impl Fn(V, T) -> V + Copy,
-    ) -> [V; N]
-    where
-        V: Copy + Add<Output = V> + Sub<Output = V> + Zero,
-    {
+    pub(crate) fn solve(&self, chains: &Chains<T>, r: &[T; N]) -> [T; N] {
         match self {
-            Self::Rigid(rigid) => rigid.solve(chains, r, times),
-            Self::Coupled(coupled) => coupled.solve(chains, r, times),
-            Self::Slipping(slipping) => slipping.solve(r, times),
+            Self::Rigid(rigid) => rigid.solve(chains, r),
+            Self::Coupled(coupled) => coupled.solve(chains, r),
+            Self::Slipping(slipping) => slipping.solve(r),
         }
     }
 }
@@ -140,7 +113,7 @@ pub(super) struct Rigid<T> {
     pub z_th: T,
 }
 
-impl<T: Num + Copy + Neg<Output = T>> Rigid<T> {
+impl<T: MatrixNumber> Rigid<T> {
     /// Factor where the feet's forces are `contact`, for s = h lambda.
     #[inline(always)]
     pub(crate) fn new(
@@ -149,35 +122,27 @@ impl<T: Num + Copy + Neg<Output = T>> Rigid<T> {
         masses: &Vector,
         closed: [bool; 2],
         s: T,
-        lift: impl Fn(f64) -> T,
     ) -> Self {
         let mut shares = [[T::zero(); 5]; 2];
         let mut lever = [[T::zero(); 2]; 2];
         for i in 0..2 {
             if closed[i] {
-                (shares[i], lever[i]) = share(&chains.0[i], &contact[i], s, &lift);
+                (shares[i], lever[i]) = share(&chains.0[i], &contact[i], s);
             }
         }
         let sum = |k: usize| shares[0][k] + shares[1][k];
         let (xx, zz, tt, x_th, z_th) = (sum(0), sum(1), sum(2), sum(3), sum(4));
-        let x_inv = T::one() / (lift(masses[X]) + xx);
-        let z_inv = T::one() / (lift(masses[Z]) + zz);
-        let th_inv = T::one() / (lift(masses[TH]) + tt - x_th * x_th * x_inv - z_th * z_th * z_inv);
+        let x_inv = T::one() / (T::from(masses[X]) + xx);
+        let z_inv = T::one() / (T::from(masses[Z]) + zz);
+        let th_inv =
+            T::one() / (T::from(masses[TH]) + tt - x_th * x_th * x_inv - z_th * z_th * z_inv);
         Self { closed, lever, x_inv, z_inv, th_inv, x_th, z_th }
     }
 
     /// Solve for the accelerations' correction.
     #[inline(always)]
-    pub(crate) fn solve<V>(
-        &self,
-        chains: &Chains<T>,
-        r: &[V; N],
-        times: impl Fn(V, T) -> V + Copy,
-    ) -> [V; N]
-    where
-        V: Copy + Add<Output = V> + Sub<Output = V> + Zero,
-    {
-        let (left, right) = (self.reach(chains, 0, r, times), self.reach(chains, 1, r, times));
+    pub(crate) fn solve(&self, chains: &Chains<T>, r: &[T; N]) -> [T; N] {
+        let (left, right) = (self.reach(chains, 0, r), self.reach(chains, 1, r));
         // one sum of both feet first, so that a mirrored case gives the mirrored history to the
         // last bit
         let [x, z, th] = [
@@ -185,64 +150,44 @@ impl<T: Num + Copy + Neg<Output = T>> Rigid<T> {
             r[Z] + (left[Z] + right[Z]),
             r[TH] + (left[TH] + right[TH]),
         ];
-        let turned = times(x, self.x_th * self.x_inv) + times(z, self.z_th * self.z_inv);
-        let th = times(th - turned, self.th_inv);
-        let x = times(x - times(th, self.x_th), self.x_inv);
-        let z = times(z - times(th, self.z_th), self.z_inv);
-        let [lx, lz] = self.absorbers(chains, 0, r, [x, z, th], times);
-        let [rx, rz] = self.absorbers(chains, 1, r, [x, z, th], times);
+        let turned = x * (self.x_th * self.x_inv) + z * (self.z_th * self.z_inv);
+        let th = (th - turned) * self.th_inv;
+        let x = (x - th * self.x_th) * self.x_inv;
+        let z = (z - th * self.z_th) * self.z_inv;
+        let [lx, lz] = self.absorbers(chains, 0, r, [x, z, th]);
+        let [rx, rz] = self.absorbers(chains, 1, r, [x, z, th]);
         [x, z, th, lx, lz, rx, rz]
     }
 
     #[inline(always)]
-    fn reach<V>(
-        &self,
-        chains: &Chains<T>,
-        i: usize,
-        r: &[V; N],
-        times: impl Fn(V, T) -> V + Copy,
-    ) -> [V; 3]
-    where
-        V: Copy + Add<Output = V> + Sub<Output = V> + Zero,
-    {
+    fn reach(&self, chains: &Chains<T>, i: usize, r: &[T; N]) -> [T; 3] {
         if !self.closed[i] {
-            return [V::zero(), V::zero(), V::zero()];
+            return [T::zero(), T::zero(), T::zero()];
         }
-        reach(&chains.0[i], self.lever[i], [r[ax(i)], r[az(i)]], times)
+        reach(&chains.0[i], self.lever[i], [r[ax(i)], r[az(i)]])
     }
 
     #[inline(always)]
-    fn absorbers<V>(
-        &self,
-        chains: &Chains<T>,
-        i: usize,
-        r: &[V; N],
-        body: [V; 3],
-        times: impl Fn(V, T) -> V + Copy,
-    ) -> [V; 2]
-    where
-        V: Copy + Add<Output = V> + Sub<Output = V> + Zero,
-    {
+    fn absorbers(&self, chains: &Chains<T>, i: usize, r: &[T; N], body: [T; 3]) -> [T; 2] {
         if !self.closed[i] {
             let [h, v] = &chains.0[i];
-            return [times(r[ax(i)], h.pivot), times(r[az(i)], v.pivot)];
+            return [r[ax(i)] * h.pivot, r[az(i)] * v.pivot];
         }
-        absorbers(&chains.0[i], self.lever[i], [r[ax(i)], r[az(i)]], body, times)
+        absorbers(&chains.0[i], self.lever[i], [r[ax(i)], r[az(i)]], body)
     }
 }
 
 /// A closed foot's share of the body's matrix, [xx, zz, tt, x_th, z_th], and its lever
 /// [dp_x/dtheta, dp_z/dtheta].
 #[inline(always)]
-pub(super) fn share<T: Num + Copy>(
+pub(super) fn share<T: MatrixNumber>(
     [h, v]: &[Condensed<T>; 2],
     foot: &FootForce,
     s: T,
-    lift: &impl Fn(f64) -> T,
 ) -> ([T; 5], [T; 2]) {
-    let [px, pz] = [lift(foot.px_th), lift(foot.pz_th)];
+    let [px, pz] = [T::from(foot.px_th), T::from(foot.pz_th)];
     // the turning lever arms: d2p_x = dp_z, d2p_z = -dp_x
-    let geometric = lift(foot.vertical * foot.px_th - foot.horizontal * foot.pz_th);
+    let geometric = T::from(foot.vertical * foot.px_th - foot.horizontal * foot.pz_th);
     let tt = h.stiffness * px * px + v.stiffness * pz * pz + s * s * geometric;
     ([h.stiffness, v.stiffness, tt, h.stiffness * px, v.stiffness * pz], [px, pz])
 }
@@ -250,25 +195,23 @@ pub(super) fn share<T: Num + Copy>(
 /// What of the right side of a closed foot's absorbers, horizontal and vertical, reaches X, Z and
 /// theta.
 #[inline(always)]
-pub(super) fn reach<T: Num + Copy, V: Copy + Add<Output = V>>(
+pub(super) fn reach<T: MatrixNumber>(
     [h, v]: &[Condensed<T>; 2],
     [px, pz]: [T; 2],
-    r: [V; 2],
-    times: impl Fn(V, T) -> V,
-) -> [V; 3] {
-    let (from_x, from_z) = (times(r[0], h.share), times(r[1], v.share));
-    [from_x, from_z, times(from_x, px) + times(from_z, pz)]
+    r: [T; 2],
+) -> [T; 3] {
+    let (from_x, from_z) = (r[0] * h.share, r[1] * v.share);
+    [from_x, from_z, from_x * px + from_z * pz]
 }
 
 /// The correction of a closed foot's absorbers, that of the body known.
 #[inline(always)]
-pub(super) fn absorbers<T: Num + Copy, V: Copy + Add<Output = V>>(
+pub(super) fn absorbers<T: MatrixNumber>(
     [h, v]: &[Condensed<T>; 2],
     [px, pz]: [T; 2],
-    r: [V; 2],
-    [x, z, th]: [V; 3],
-    times: impl Fn(V, T) -> V,
-) -> [V; 2] {
-    let along = times(r[0] + times(x + times(th, px), h.coupling), h.pivot);
-    [along, times(r[1] + times(z + times(th, pz), v.coupling), v.pivot)]
+    r: [T; 2],
+    [x, z, th]: [T; 3],
+) -> [T; 2] {
+    let along = (r[0] + (x + th * px) * h.coupling) * h.pivot;
+    [along, (r[1] + (z + th * pz) * v.coupling) * v.pivot]
 }

@@ -262,10 +262,9 @@ impl<'a> TimeLoop<'a> {
 
     /// The next step: what the account allows, never past the sample, and no sliver left over.
     fn next_size(&self, left: f64) -> f64 {
-        let l = left;
-        if self.h >= 0.999 * l {
+        if self.h >= 0.999 * left {
             left
-        } else if self.h > 0.5 * l {
+        } else if self.h > 0.5 * left {
             left * 0.5
         } else {
             self.h

@@ -4,11 +4,8 @@
 //! unsymmetric and ties each of the foot's absorbers to both of its motions. It is factored whole:
 //! slipping is rare and short.
 
-use std::ops::Sub;
-
-use num_traits::Num;
-
 use super::model::{Contact, Foot, Model, N, State, TH, X, Z, ax, az};
+use super::newton::MatrixNumber;
 
 /// Absorbers first, the rotation last: each pivot then has a mass, or stands on what is left of
 /// one.
@@ -17,24 +14,18 @@ const ORDER: [usize; N] = [ax(0), az(0), ax(1), az(1), X, Z, TH];
 /// The matrix as L U in the order of elimination: multipliers below, U on and above the diagonal.
 pub(super) struct Slipping<T>([[T; N]; N]);
 
-impl<T: Num + Copy> Slipping<T> {
+impl<T: MatrixNumber> Slipping<T> {
     /// Factor at `state` for s = h lambda.
-    pub(crate) fn new(
-        model: &Model,
-        state: &State,
-        feet: &[Foot; 2],
-        s: T,
-        lift: &impl Fn(f64) -> T,
-    ) -> Self {
+    pub(crate) fn new(model: &Model, state: &State, feet: &[Foot; 2], s: T) -> Self {
         let mut matrix = [[T::zero(); N]; N];
         for (k, mass) in model.masses(feet).into_iter().enumerate() {
-            matrix[k][k] = lift(mass);
+            matrix[k][k] = T::from(mass);
         }
         let s2 = s * s;
         for (i, f) in model.contact(&state.q, feet).iter().enumerate() {
             for (k, chain) in [(ax(i), &model.springs.horizontal), (az(i), &model.springs.vertical)]
             {
-                matrix[k][k] = matrix[k][k] + s * (lift(chain.c) + s * lift(chain.k2));
+                matrix[k][k] = matrix[k][k] + s * (T::from(chain.c) + s * T::from(chain.k2));
             }
             if !feet[i].closed() {
                 continue;
@@ -54,11 +45,11 @@ impl<T: Num + Copy> Slipping<T> {
                 let rows =
                     [(X, of_h[k]), (Z, of_n[k]), (TH, turn), (ax(i), -of_h[k]), (az(i), -of_n[k])];
                 for (row, slope) in rows {
-                    matrix[row][k] = matrix[row][k] + s2 * lift(slope);
+                    matrix[row][k] = matrix[row][k] + s2 * T::from(slope);
                 }
             }
             matrix[TH][TH] =
-                matrix[TH][TH] + s2 * lift(f.vertical * f.px_th - f.horizontal * f.pz_th);
+                matrix[TH][TH] + s2 * T::from(f.vertical * f.px_th - f.horizontal * f.pz_th);
         }
         let mut lu: [[T; N]; N] =
             std::array::from_fn(|i| std::array::from_fn(|j| matrix[ORDER[i]][ORDER[j]]));
@@ -75,25 +66,20 @@ impl<T: Num + Copy> Slipping<T> {
         Self(lu)
     }
 
-    /// Solve for the accelerations' correction; `times` multiplies an entry of the right side by
-    /// one of the matrix.
-    pub(crate) fn solve<V: Copy + Sub<Output = V>>(
-        &self,
-        r: &[V; N],
-        times: impl Fn(V, T) -> V,
-    ) -> [V; N] {
+    /// Solve for the accelerations' correction.
+    pub(crate) fn solve(&self, r: &[T; N]) -> [T; N] {
         let lu = &self.0;
         let mut d = ORDER.map(|k| r[k]);
         for i in 0..N {
             for j in 0..i {
-                d[i] = d[i] - times(d[j], lu[i][j]);
+                d[i] = d[i] - d[j] * lu[i][j];
             }
         }
         for i in (0..N).rev() {
             for j in i + 1..N {
-                d[i] = d[i] - times(d[j], lu[i][j]);
+                d[i] = d[i] - d[j] * lu[i][j];
             }
-            d[i] = times(d[i], T::one() / lu[i][i]);
+            d[i] = d[i] * (T::one() / lu[i][i]);
         }
         let mut out = *r;
         for (k, d) in ORDER.into_iter().zip(d) {

@@ -3,8 +3,7 @@
 use num_complex::Complex;
 
 pub(super) use super::iterate::{
-    Convergence, EIGENVALUE, Ground, IterationVerdict, LARGEST, complex, embedded, from_modes,
-    modes, stage, times,
+    Convergence, EIGENVALUE, Ground, IterationVerdict, LARGEST, embedded, from_modes, modes, stage,
 };
 use super::{
     cubic,
@@ -153,13 +152,13 @@ impl Shared {
         if turns {
             let contact = turning::contact([start, &middle.q].map(|q| model.contact(q, feet)));
             return (
-                CondensedMatrix::rigid(&self.real, model, &contact, feet, real, |x| x),
-                CondensedMatrix::rigid(&self.pair, model, &contact, feet, pair, complex),
+                CondensedMatrix::rigid(&self.real, model, &contact, feet, real),
+                CondensedMatrix::rigid(&self.pair, model, &contact, feet, pair),
             );
         }
         (
-            CondensedMatrix::new(&self.real, model, middle, feet, real, |x| x),
-            CondensedMatrix::new(&self.pair, model, middle, feet, pair, complex),
+            CondensedMatrix::new(&self.real, model, middle, feet, real),
+            CondensedMatrix::new(&self.pair, model, middle, feet, pair),
         )
     }
 }
@@ -175,8 +174,8 @@ impl<'a> Stepper<'a> {
     fn condense(&mut self, h: f64, feet: &[Foot; 2]) {
         let contact = feet.map(|foot| foot.contact);
         if !self.chains.as_ref().is_some_and(|shared| shared.h == h && shared.contact == contact) {
-            let real = Chains::new(self.model, feet, h * GAMMA, &|x| x);
-            let pair = Chains::new(self.model, feet, h * EIGENVALUE, &complex);
+            let real = Chains::new(self.model, feet, h * GAMMA);
+            let pair = Chains::new(self.model, feet, h * EIGENVALUE);
             self.chains = Some(Shared { h, contact, real, pair });
         }
     }
@@ -228,8 +227,8 @@ impl<'a> Stepper<'a> {
             for k in 0..N {
                 (r0[k], r1[k]) = modes([residual[0][k], residual[1][k], residual[2][k]]);
             }
-            let w0 = real_matrix.solve(&shared.real, &r0, |x, t| x * t);
-            let w1 = pair_matrix.solve(&shared.pair, &r1, times);
+            let w0 = real_matrix.solve(&shared.real, &r0);
+            let w1 = pair_matrix.solve(&shared.pair, &r1);
 
             let mut change: f64 = 0.0;
             let turn = from_modes(w0[TH], w1[TH]);
@@ -321,7 +320,7 @@ impl Stepper<'_> {
         let d_v = std::array::from_fn(|k| embedded([0, 1, 2].map(|i| s.v[i][k]), v[k]));
         let forces = self.model.forces(q, &d_q.map(|d: f64| -d * per), feet, ground.start);
         let right = error_right(root, &forces, &self.model.masses(feet), v, &d_q, &d_v);
-        let e_q = matrix.solve(&shared.real, &right, |x, t| x * t);
+        let e_q = matrix.solve(&shared.real, &right);
         State { q: e_q, v: std::array::from_fn(|k| (e_q[k] - d_q[k]) * per - v[k]) }
     }
 }

@@ -13,7 +13,10 @@ use std::f64::consts::TAU;
 use nalgebra::SMatrix;
 use num_complex::Complex;
 
-use super::model::{Contact, Foot, Model, N, State, TH, Vector};
+use super::{
+    model::{Contact, Foot, Model, N, State, TH, Vector},
+    newton::MatrixNumber,
+};
 use crate::spring::{Chain, Design, Springs};
 use rocking::structure::{Body, Structure};
 
@@ -84,11 +87,10 @@ pub(super) fn moved(x: &Vector, j: usize, by: f64) -> Vector {
 }
 
 /// M + s C + s^2 K of the model at `state()`, with C = -df/dv and K = -df/dq by differences.
-fn dense<T: num_traits::Num + Copy + nalgebra::Scalar>(
+fn dense<T: MatrixNumber + nalgebra::Scalar>(
     model: &Model,
     feet: &[Foot; 2],
     s: T,
-    lift: impl Fn(f64) -> T,
 ) -> SMatrix<T, N, N> {
     let State { q, v } = state();
     let mut matrix = SMatrix::<T, N, N>::from_element(T::zero());
@@ -97,9 +99,9 @@ fn dense<T: num_traits::Num + Copy + nalgebra::Scalar>(
         let by_q = slopes(step(j), |t| model.forces(&moved(&q, j, t), &v, feet, [0.0; 2]));
         let by_v = slopes(step(j), |t| model.forces(&q, &moved(&v, j, t), feet, [0.0; 2]));
         for i in 0..N {
-            matrix[(i, j)] = T::zero() - s * (lift(by_v[i]) + s * lift(by_q[i]));
+            matrix[(i, j)] = T::zero() - s * (T::from(by_v[i]) + s * T::from(by_q[i]));
         }
-        matrix[(j, j)] = matrix[(j, j)] + lift(masses[j]);
+        matrix[(j, j)] = matrix[(j, j)] + T::from(masses[j]);
     }
     matrix
 }

@@ -1,10 +1,10 @@
 //! Dense factors of small matrices, real or complex, without allocation once made.
 
+use dynamics::fem::condensed::MatrixNumber;
 use num_complex::Complex;
-use num_traits::Num;
 
 /// A number that a pivot is chosen by.
-pub(super) trait MatrixEntry: Num + Copy {
+pub(super) trait MatrixEntry: MatrixNumber {
     /// Its absolute value, squared.
     fn size(self) -> f64;
 }

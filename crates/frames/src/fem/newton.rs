@@ -71,26 +71,20 @@ impl<T: MatrixEntry> FactoredMatrix<T> {
     }
 
     /// Condense the chains for s = h lambda.
-    pub(crate) fn condense(
-        &mut self,
-        model: &ElasticModel,
-        feet: &[CornerState],
-        s: T,
-        lift: impl Fn(f64) -> T,
-    ) {
+    pub(crate) fn condense(&mut self, model: &ElasticModel, feet: &[CornerState], s: T) {
         self.chains.clear();
         self.chains.extend(feet.iter().zip(model.units).map(
             |(foot, Springs { vertical, horizontal })| {
                 [
-                    Condensed::new(horizontal, foot.closed && foot.holds, s, &lift),
-                    Condensed::new(vertical, foot.closed, s, &lift),
+                    Condensed::new(horizontal, foot.closed && foot.holds, s),
+                    Condensed::new(vertical, foot.closed, s),
                 ]
             },
         ));
         self.drags.clear();
         self.drags.extend(feet.iter().enumerate().map(|(i, foot)| {
             let [of_force, of_rate] = model.dragged(i, foot);
-            lift(of_force) + lift(of_rate) / s
+            T::from(of_force) + T::from(of_rate) / s
         }));
     }
 
@@ -102,7 +96,6 @@ impl<T: MatrixEntry> FactoredMatrix<T> {
         tangent: &Tangent,
         feet: &[CornerState],
         s: T,
-        lift: impl Fn(f64) -> T,
     ) -> bool {
         let n = model.n;
         let mass = model.frame.mass_matrix();
@@ -111,7 +104,7 @@ impl<T: MatrixEntry> FactoredMatrix<T> {
             for j in 0..n {
                 let at = (i, j);
                 self.entries[i * n + j] =
-                    lift(mass[at]) + s * lift(tangent.c[at]) + s2 * lift(tangent.k[at]);
+                    T::from(mass[at]) + s * T::from(tangent.c[at]) + s2 * T::from(tangent.k[at]);
             }
         }
         let entries = &mut self.entries;
@@ -121,12 +114,12 @@ impl<T: MatrixEntry> FactoredMatrix<T> {
             }
             let ([h, v], drag) = (&self.chains[i], self.drags[i]);
             corner.rows(tangent.slopes[i], |row, gi| {
-                let pushed = lift(gi[1]) + drag * lift(gi[0]);
+                let pushed = T::from(gi[1]) + drag * T::from(gi[0]);
                 corner.rows(tangent.slopes[i], |column, gj| {
                     let at = row * n + column;
                     entries[at] = entries[at]
-                        + h.stiffness * lift(gi[0] * gj[0])
-                        + v.stiffness * pushed * lift(gj[1]);
+                        + h.stiffness * T::from(gi[0] * gj[0])
+                        + v.stiffness * pushed * T::from(gj[1]);
                 });
             });
         }
@@ -140,7 +133,6 @@ impl<T: MatrixEntry> FactoredMatrix<T> {
         tangent: &Tangent,
         feet: &[CornerState],
         r: &mut [T],
-        lift: impl Fn(f64) -> T,
     ) {
         let n = model.n;
         for (i, corner) in model.frame.places().iter().enumerate() {
@@ -149,7 +141,7 @@ impl<T: MatrixEntry> FactoredMatrix<T> {
                 let from_z = r[at + 1] * v.share;
                 let from_x = r[at] * h.share + from_z * self.drags[i];
                 corner.rows(tangent.slopes[i], |row, g| {
-                    r[row] = r[row] + from_x * lift(g[0]) + from_z * lift(g[1])
+                    r[row] = r[row] + from_x * T::from(g[0]) + from_z * T::from(g[1])
                 });
             }
         }
@@ -159,7 +151,7 @@ impl<T: MatrixEntry> FactoredMatrix<T> {
             let mut moved = [T::zero(); 2];
             if feet[i].closed {
                 corner.rows(tangent.slopes[i], |row, g| {
-                    moved = [moved[0] + r[row] * lift(g[0]), moved[1] + r[row] * lift(g[1])];
+                    moved = [moved[0] + r[row] * T::from(g[0]), moved[1] + r[row] * T::from(g[1])];
                 });
             }
             r[at + 1] = (r[at + 1] + v.coupling * moved[1]) * v.pivot;

@@ -8,8 +8,8 @@ use super::{
 };
 use dynamics::fem::{
     iterate::{
-        Convergence, EIGENVALUE, Ground, IterationVerdict, LARGEST, complex, embedded, from_modes,
-        modes, stage,
+        Convergence, EIGENVALUE, Ground, IterationVerdict, LARGEST, embedded, from_modes, modes,
+        stage,
     },
     radau::{A, C, GAMMA},
 };
@@ -103,15 +103,14 @@ impl<'a> ElasticStepper<'a> {
         }
         let (s, pair_s) = (h * GAMMA, EIGENVALUE * h);
         if condensed.0 != h || condensed.1 != feet {
-            real.condense(model, feet, s, |x| x);
-            pair.condense(model, feet, pair_s, complex);
+            real.condense(model, feet, s);
+            pair.condense(model, feet, pair_s);
             condensed.0 = h;
             condensed.1.clear();
             condensed.1.extend_from_slice(feet);
         }
         tangent.take(model, mq, mv, feet);
-        real.factor(model, tangent, feet, s, |x| x)
-            && pair.factor(model, tangent, feet, pair_s, complex)
+        real.factor(model, tangent, feet, s) && pair.factor(model, tangent, feet, pair_s)
     }
 
     /// Take the step from q, q' into `s`, whose accelerations are the first guess; whether the
@@ -154,8 +153,8 @@ impl<'a> ElasticStepper<'a> {
             for k in 0..size {
                 (self.r0[k], self.r1[k]) = modes([ra[k], rb[k], rc[k]]);
             }
-            self.real.solve(model, &self.tangent, feet, &mut self.r0, |x| x);
-            self.pair.solve(model, &self.tangent, feet, &mut self.r1, complex);
+            self.real.solve(model, &self.tangent, feet, &mut self.r0);
+            self.pair.solve(model, &self.tangent, feet, &mut self.r1);
             let mut change: f64 = 0.0;
             for k in 0..size {
                 for (a, delta) in s.a.iter_mut().zip(from_modes(self.r0[k], self.r1[k])) {
@@ -193,7 +192,7 @@ impl<'a> ElasticStepper<'a> {
         for (right, m) in right.iter_mut().zip(&self.r0) {
             *right = root * root * *right + m;
         }
-        self.real.solve(model, &self.tangent, feet, right, |x| x);
+        self.real.solve(model, &self.tangent, feet, right);
         for k in 0..model.size {
             speed[k] = (right[k] - d_q[k]) / root - v[k];
         }

@@ -205,3 +205,65 @@ fn path(
     let settles = found.settlement(1.0) <= bracket.max_settlement * (1.0 + 1e-3);
     (error.is_finite() && settles).then_some(found)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rocking::structure::Structure;
+
+    /// Springs of 160 Hz from the geometry of the paper's frame, and what they are judged by.
+    fn judged(effort: &Effort) -> (LandingsAndUplifts<'_>, Vec<f64>) {
+        let body = Structure::paper().body::<f64>();
+        let bracket = Bracket { max_hz: 160.0, max_settlement: 0.01 };
+        let restitution = body.restitution();
+        let objective =
+            LandingsAndUplifts::new(&body, restitution, (bracket, Criterion::Energy), effort);
+        let mut found =
+            Geometry::of(&body, TAU * 160.0 / body.p_squared().sqrt()).unwrap().springs();
+        (found.vertical.omega_n_hz, found.horizontal.omega_n_hz) = (160.0, 160.0);
+        (objective, logarithms(&found))
+    }
+
+    fn moved(z: &[f64], i: usize, by: f64) -> Vec<f64> {
+        let mut z = z.to_vec();
+        z[i] += by;
+        z
+    }
+
+    #[test]
+    fn the_limit_of_the_settlement_has_the_slopes_of_its_value() {
+        let effort = Effort::unbounded();
+        let (objective, z) = judged(&effort);
+        let value = |z: &[f64]| objective.inequality(z).unwrap().0;
+        let (here, row) = objective.inequality(&z).unwrap();
+        // both feet, each on half of the weight
+        let settles = springs(&z).settlement(1.0);
+        assert!((here - (settles / 0.01).ln()).abs() < 1e-12, "{here} {settles}");
+        for (i, slope) in row.iter().enumerate() {
+            let by = 1e-5;
+            let difference = (value(&moved(&z, i, by)) - value(&moved(&z, i, -by))) / (2.0 * by);
+            assert!((slope - difference).abs() < 1e-9, "{i}: {slope} {difference}");
+        }
+    }
+
+    /// Slopes are those of histories followed ten thousand times as exactly, over a third of the
+    /// difference: neither their error nor the difference shows.
+    #[test]
+    fn slopes_are_those_of_finer_differences_of_finer_histories() {
+        let effort = Effort::unbounded();
+        let (objective, z) = judged(&effort);
+        let (_, rows) = objective.gradients(&z);
+        let fine = Control { tolerance: 1e-10, most_steps: 100_000, ..objective.control };
+        let residuals = |z: &[f64]| objective.whole.residuals(&springs(z), fine, &effort);
+        let largest = rows.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
+        assert!(largest > 1e-2, "the springs are felt: {largest}");
+        for i in 0..z.len() {
+            let by = DIFFERENCE / 3.0;
+            let (up, down) = (residuals(&moved(&z, i, by)), residuals(&moved(&z, i, -by)));
+            for (r, row) in rows.iter().enumerate() {
+                let slope = (up[r] - down[r]) / (2.0 * by);
+                assert!((row[i] - slope).abs() < 0.05 * largest, "{r} {i}: {} {slope}", row[i]);
+            }
+        }
+    }
+}

@@ -53,10 +53,9 @@ impl Element for Dampers {
         };
         let (l, r) = (one(0), one(1));
         let [arm, arm2, z_th, th_th] = std::array::from_fn(|k| l[k] + r[k]);
-        let zero = 0.0;
         ElementTangent {
-            stiffness: [[zero; 3], [zero, zero, z_th], [zero, zero, th_th]],
-            damping: [[zero; 3], [zero, c + c, arm], [zero, arm, arm2]],
+            stiffness: [[0.0; 3], [0.0, 0.0, z_th], [0.0, 0.0, th_th]],
+            damping: [[0.0; 3], [0.0, c + c, arm], [0.0, arm, arm2]],
         }
     }
 

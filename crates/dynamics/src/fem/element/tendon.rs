@@ -72,8 +72,7 @@ impl Element for TendonElement {
     }
 
     fn tangent(&self, q: &Vector, _: &Vector) -> ElementTangent {
-        let zero = 0.0;
-        let none = [[zero; 3]; 3];
+        let none = [[0.0; 3]; 3];
         let Some(TendonState { tension, length, direction: [ux, uz], .. }) = self.pull(q) else {
             return ElementTangent { stiffness: none, damping: none };
         };
@@ -81,9 +80,9 @@ impl Element for TendonElement {
         let along = self.stiffness - across;
         let mixed = along * ux * uz;
         let stiffness = [
-            [across + along * ux * ux, mixed, zero],
-            [mixed, across + along * uz * uz, zero],
-            [zero; 3],
+            [across + along * ux * ux, mixed, 0.0],
+            [mixed, across + along * uz * uz, 0.0],
+            [0.0; 3],
         ];
         ElementTangent { stiffness, damping: none }
     }

@@ -94,8 +94,7 @@ impl TimeLoop<'_> {
         let (dt, count) = (self.motion.dt, n as f64);
         let (motion, from) = (self.motion, self.interval);
         let a = |i: usize| motion.scale * motion.accel[from + i];
-        let zero = 0.0;
-        let (mut m0, mut m1, mut m2) = (zero, zero, zero);
+        let (mut m0, mut m1, mut m2) = (0.0, 0.0, 0.0);
         for i in 0..n {
             let (now, next, at) = (a(i), a(i + 1), i as f64);
             let (zeroth, first) = ((now + next) * 0.5, now * SIXTH + next * THIRD);
@@ -110,7 +109,7 @@ impl TimeLoop<'_> {
         let c2 = m0 * 30.0 - m1 * 180.0 + m2 * 180.0;
 
         let (h, per) = (count * dt, count.recip());
-        let (mut speed, mut place) = (zero, zero);
+        let (mut speed, mut place) = (0.0, 0.0);
         let (mut latest, mut most) = (0.0_f64, (a(0) - c0).abs());
         for i in 1..=n {
             let (before, now, x) = (a(i - 1), a(i), i as f64 * per);
@@ -126,8 +125,7 @@ impl TimeLoop<'_> {
         }
         let kinks = (h / self.scales.moment).powi(2) * latest + self.compliance * most;
         let missed = kinks / (self.scales.radius * self.scales.alpha);
-        let ground =
-            Ground { start: [c0, zero], slope: [c1 / h, zero], curve: [c2 / (h * h), zero] };
+        let ground = Ground { start: [c0, 0.0], slope: [c1 / h, 0.0], curve: [c2 / (h * h), 0.0] };
         (ground, Span { intervals: n, missed })
     }
 

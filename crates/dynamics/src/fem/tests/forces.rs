@@ -51,8 +51,8 @@ fn newton_solves_with_the_dense_matrix_for_a_real_eigenvalue() {
         let model = Model::new(&body(share), &springs());
         for feet in contacts() {
             for s in [1e-4, 3e-3, 0.05] {
-                let solution = Newton::new(&model, &state(), &feet, s, |x| x).solve(&RIGHT_SIDE);
-                let matrix = dense(&model, &feet, s, |x| x);
+                let solution = Newton::new(&model, &state(), &feet, s).solve(&RIGHT_SIDE);
+                let matrix = dense(&model, &feet, s);
                 let exact = matrix.lu().solve(&SVector::from(RIGHT_SIDE)).unwrap();
                 let backward = matrix * SVector::from(solution) - SVector::from(RIGHT_SIDE);
                 let scale = matrix.abs() * SVector::from(solution).abs();
@@ -69,15 +69,14 @@ fn newton_solves_with_the_dense_matrix_for_a_real_eigenvalue() {
 
 #[test]
 fn newton_solves_with_the_dense_matrix_for_a_complex_eigenvalue() {
-    let lift = |x: f64| Complex::new(x, 0.0);
     let right = RIGHT_SIDE.map(|x| Complex::new(x, -0.3 * x + 1e5));
     for share in [0.0, 0.1] {
         let model = Model::new(&body(share), &springs());
         for feet in contacts() {
             for h in [1e-4, 3e-3, 0.05] {
                 let s = Complex::new(0.16 * h, 0.18 * h);
-                let solution = Newton::new(&model, &state(), &feet, s, lift).solve(&right);
-                let matrix = dense(&model, &feet, s, lift);
+                let solution = Newton::new(&model, &state(), &feet, s).solve(&right);
+                let matrix = dense(&model, &feet, s);
                 let missed = largest_residual(&matrix, &solution, &right);
                 assert!(missed < 1e-11, "{feet:?} {h}: {missed}");
             }

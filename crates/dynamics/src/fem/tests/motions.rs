@@ -182,7 +182,7 @@ fn elastic_rocking_is_omega_n_root_2k_over_1_plus_k_times_b_over_r() {
     let push = 1e-3 * body.mass * GRAVITY * body.half_width / body.height;
     let mut state = start;
     for _ in 0..50 {
-        let newton = crate::fem::newton::Newton::new(&model, &state, &feet, 1e6, |x: f64| x);
+        let newton = crate::fem::newton::Newton::new(&model, &state, &feet, 1e6);
         let mut r = model.forces(&state.q, &state.v, &feet, [0.0; 2]);
         r[X] += push;
         let a = newton.solve(&r);

@@ -14,10 +14,7 @@ use crate::{
         newton::{Chains, Rigid},
         radau::{A, C, GAMMA},
         run::{Scales, stays_inside},
-        step::{
-            EIGENVALUE, Ground, LARGEST, complex, embedded, error_right, from_modes, modes, stage,
-            times,
-        },
+        step::{EIGENVALUE, Ground, LARGEST, embedded, error_right, from_modes, modes, stage},
         turning,
     },
     spring::{Chain, Springs},
@@ -108,8 +105,8 @@ impl Kernel {
             let middle: Vector = self.middle(l);
             let contact = self.contact(l, &model, &feet, &middle);
             let (masses, closed) = (model.masses(&feet), [feet[0].closed(), feet[1].closed()]);
-            let chains = Chains::new(&model, &feet, h * GAMMA, &|x| x);
-            let rigid = Rigid::new(&chains, &contact, &masses, closed, h * GAMMA, |x| x);
+            let chains = Chains::new(&model, &feet, h * GAMMA);
+            let rigid = Rigid::new(&chains, &contact, &masses, closed, h * GAMMA);
             let entries = pack(&chains, &rigid);
             for e in 0..ENTRIES {
                 self.real[e][l] = entries[e];
@@ -123,8 +120,8 @@ impl Kernel {
             let middle: Vector = self.middle(l);
             let contact = self.contact(l, &model, &feet, &middle);
             let (masses, closed) = (model.masses(&feet), [feet[0].closed(), feet[1].closed()]);
-            let chains = Chains::new(&model, &feet, h * EIGENVALUE, &complex);
-            let rigid = Rigid::new(&chains, &contact, &masses, closed, h * EIGENVALUE, complex);
+            let chains = Chains::new(&model, &feet, h * EIGENVALUE);
+            let rigid = Rigid::new(&chains, &contact, &masses, closed, h * EIGENVALUE);
             let entries = pack(&chains, &rigid);
             for e in 0..ENTRIES {
                 self.pair[0][e][l] = entries[e].re;
@@ -198,7 +195,7 @@ impl Kernel {
             coordinates!(K => {
                 r[K] = modes(self.left(K, l)).0;
             });
-            let w = rigid.solve(&chains, &r, |x, t| x * t);
+            let w = rigid.solve(&chains, &r);
             coordinates!(K => {
                 self.w[0][K][l] = w[K];
             });
@@ -210,7 +207,7 @@ impl Kernel {
             coordinates!(K => {
                 r[K] = modes(self.left(K, l)).1;
             });
-            let w = rigid.solve(&chains, &r, times);
+            let w = rigid.solve(&chains, &r);
             coordinates!(K => {
                 self.w[1][K][l] = w[K].re;
                 self.w[2][K][l] = w[K].im;
@@ -288,7 +285,7 @@ impl Kernel {
             let forces = model.forces_at(&pose(&q), &q, &rate, &feet, column(&self.start, l));
             let right = error_right(root, &forces, &model.masses(&feet), &v, &d_q, &d_v);
             let (chains, rigid) = unpack(&column(&self.real, l), self.shut(l));
-            let e_q = rigid.solve(&chains, &right, |x, t| x * t);
+            let e_q = rigid.solve(&chains, &right);
             let mut e_v = [0.0; N];
             coordinates!(K => {
                 e_v[K] = (e_q[K] - d_q[K]) * per - v[K];
