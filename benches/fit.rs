@@ -3,11 +3,8 @@
 use std::{hint::black_box, time::Duration};
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use springs::{
-    case::Case,
-    response::{bounds::Bounds, target::Target},
-    tuning::{job::Job, paper_procedure::inner::fit},
-};
+use frequency_response::{bounds::Bounds, inner::fit, target::Target};
+use springs::{case::Case, tuning::job::Job};
 
 fn inner(c: &mut Criterion) {
     let mut group = c.benchmark_group("inner fit");

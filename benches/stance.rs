@@ -10,14 +10,14 @@
 //! ```
 
 use dynamics::{fem::Control, spring::Design};
+use landing::{
+    design::{Geometry, springs_at_stiffness},
+    universal::universal,
+};
 use rocking::structure::Structure;
 use springs::{
     case::{Asked, Yardstick},
-    tuning::{
-        landing::design::springs_at_stiffness,
-        landing::{design::Geometry, universal::universal},
-        suite::Suites,
-    },
+    tuning::suite::Suites,
 };
 
 const SCALES: [f64; 6] = [0.45, 0.9, 1.3, 1.8, 2.5, 3.6];

@@ -9,11 +9,13 @@ use ::sweep::SweepError;
 use decks::{ExportError, verify::VerifyError};
 use figures::FigureError;
 use files::message::printable;
+use frequency_response::inner::FitError;
+use landing::design::GeometryError;
 use run_folder::FolderError;
 use springs::{
     case::CaseError,
     parameters::{ParametersError, RememberedError},
-    tuning::{job::JobError, landing::design::GeometryError, paper_procedure::inner::FitError},
+    tuning::job::JobError,
 };
 use strong_motion::RecordError;
 

@@ -39,7 +39,7 @@ use std::{
 
 use clap::Parser;
 use figures::precision::{self, PrecisionFigure};
-use springs::tuning::paper_procedure::inner::FitError;
+use frequency_response::inner::FitError;
 
 use self::peers::Stepping;
 use report::Measured;

@@ -9,9 +9,10 @@ use std::{
 };
 
 use super::{least, skips::Skip};
-use springs::{
-    response::{bounds::Bounds, target::Target},
-    tuning::paper_procedure::inner::{FitError, fit},
+use frequency_response::{
+    bounds::Bounds,
+    inner::{FitError, fit},
+    target::Target,
 };
 
 /// A run of the program.

@@ -1,13 +1,14 @@
 //! The design from the geometry, without units, and the frequency response.
 
+use ::frequency_response::{bounds::Bounds, inner::fit, response, target::Target};
 use dynamics::spring;
+use landing::design::Geometry;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use rocking::scalar::GRAVITY;
 use springs::{
     case::{Asked, Yardstick},
-    response::{self, bounds::Bounds, target::Target},
-    tuning::{landing::design::Geometry, paper_procedure::inner::fit, stiffness_search},
+    tuning::stiffness_search,
 };
 
 use crate::{

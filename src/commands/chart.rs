@@ -10,8 +10,8 @@ use rayon::prelude::*;
 
 use super::{CommandError, run::threads, terminal};
 use dynamics::spring::{Design, Springs};
+use landing::design::Geometry;
 use run_folder::{folder::Folder, folder::identity, place::check_folder, place::write_file};
-use springs::tuning::landing::design::Geometry;
 
 /// Options of `tune chart`.
 #[derive(Debug, Args)]
@@ -145,7 +145,7 @@ fn draw(out: &Path, rows: &[ChartRow]) -> Result<(), CommandError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use springs::tuning::landing::design::GeometryError;
+    use landing::design::GeometryError;
 
     #[test]
     fn a_row_holds_the_design() -> Result<(), GeometryError> {

@@ -5,11 +5,12 @@ use std::{fmt::Write, path::PathBuf};
 use clap::Args;
 
 use super::{CommandError, terminal};
-use springs::{
-    case::Case,
-    response::{bounds::Bounds, target::Target},
-    tuning::paper_procedure::inner::{Fit, fit},
+use frequency_response::{
+    bounds::Bounds,
+    inner::{Fit, fit},
+    target::Target,
 };
+use springs::case::Case;
 
 /// Options of `tune response`.
 #[derive(Debug, Args)]

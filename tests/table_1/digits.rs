@@ -3,14 +3,14 @@
 use std::f64::consts::TAU;
 
 use dynamics::spring::Springs;
-use rocking::structure::Structure;
-use springs::{
-    response::{Response, bounds::Bounds, target::Target},
-    tuning::{
-        landing::chain::land,
-        paper_procedure::inner::{Fit, FitOutcome, fit},
-    },
+use frequency_response::{
+    Response,
+    bounds::Bounds,
+    inner::{Fit, FitOutcome, fit},
+    target::Target,
 };
+use landing::chain::land;
+use rocking::structure::Structure;
 
 /// Mass at the apex, section 4 [kg].
 const M1: f64 = 680.1e3;

@@ -1,8 +1,6 @@
 //! An elastic structure in a program with fixed time steps: its springs, with substeps at touches
 //! too, and what the emulation of such a program finds of it.
 
-use std::ops::ControlFlow;
-
 use dynamics::spring::{Chain, Springs};
 use fixed_steps::{FixedStepAnalysis, FixedStepFrame, FixedStepOutcome, GaveUp};
 use frames::{Mechanics, assembled::Assembled, frame::EquilibriumError};
@@ -90,19 +88,12 @@ impl CornerProgram {
         let model = FixedStepFrame::new(frame, &springs).map_err(failed)?;
         let settings = self.steps()?.settings(weight);
         let analysis = FixedStepAnalysis::new(&model, settings, record.dt, &record.accel);
-        let (analysis, size) =
-            (FixedStepAnalysis { vertical: record.up(), ..analysis }, frame.size());
-        let mut all = Vec::with_capacity(record.len());
-        let (outcome, _) = analysis
-            .follow(|_, q| {
-                all.push(q[..size].to_vec());
-                ControlFlow::Continue(())
-            })
-            .map_err(failed)?;
-        let gives_up = match outcome {
+        let analysis = FixedStepAnalysis { vertical: record.up(), ..analysis };
+        let history = analysis.history().map_err(failed)?;
+        let gives_up = match history.outcome {
             FixedStepOutcome::GaveUp(GaveUp { time, .. }) => Some(time),
             _ => None,
         };
-        Ok((all, gives_up))
+        Ok((history.coordinates, gives_up))
     }
 }

@@ -9,6 +9,8 @@
 //! M, Q and its tangent are the frame's own (`frames::frame`), H and N those of `contact`. One
 //! dense matrix of the frame's coordinates a solution, the absorbers condensed.
 
+use std::ops::ControlFlow;
+
 use dynamics::spring::{Chain, Springs};
 use frames::{
     Mechanics,
@@ -17,6 +19,7 @@ use frames::{
 use nalgebra::{DMatrix, DVectorViewMut, Dyn, LU};
 
 use crate::{
+    analysis::{FixedStepAnalysis, FixedStepOutcome, FixedStepWork},
     contact::{CondensedUnit, FixedFoot},
     kinematics::{TangentWeights, Trial},
     model::FixedStepModel,
@@ -67,6 +70,32 @@ impl<'a> FixedStepFrame<'a> {
             .zip(self.units)
             .enumerate()
             .map(move |(i, (place, unit))| (n + 2 * i, place, unit))
+    }
+}
+
+/// A frame's history at the record's samples.
+#[derive(Clone, Debug)]
+pub struct FixedStepFrameHistory {
+    /// The frame's own coordinates; fewer than the record has samples if the outcome says so.
+    pub coordinates: Vec<Vec<f64>>,
+    /// How it ended.
+    pub outcome: FixedStepOutcome,
+    /// What it cost.
+    pub work: FixedStepWork,
+}
+
+impl FixedStepAnalysis<'_, FixedStepFrame<'_>> {
+    /// The frame's coordinates at the record's samples.
+    ///
+    /// # Errors
+    /// The frame finds no rest to begin from.
+    pub fn history(&self) -> Result<FixedStepFrameHistory, EquilibriumError> {
+        let mut coordinates = Vec::with_capacity(self.accel.len());
+        let (outcome, work) = self.follow(|_, q| {
+            coordinates.push(q[..self.model.n()].to_vec());
+            ControlFlow::Continue(())
+        })?;
+        Ok(FixedStepFrameHistory { coordinates, outcome, work })
     }
 }
 

@@ -42,7 +42,7 @@ pub mod recipe;
 pub mod rigid;
 
 pub use analysis::{FixedStepAnalysis, FixedStepHistory, FixedStepOutcome, GaveUp, StepSettings};
-pub use elastic::FixedStepFrame;
+pub use elastic::{FixedStepFrame, FixedStepFrameHistory};
 pub use events::EventStepping;
 pub use expected::ExpectedError;
 pub use integrator::Integrator;

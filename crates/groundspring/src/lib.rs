@@ -47,6 +47,10 @@ pub use dynamics::fem::{
 #[doc(inline)]
 pub use dynamics::spring::{Chain, ChainRow, Design, Springs};
 #[doc(inline)]
+pub use frequency_response::Response;
+#[doc(inline)]
+pub use frequency_response::inner::FitError;
+#[doc(inline)]
 pub use rocking::conditioning::{Changes, Conditioning, Sensitivity};
 #[doc(inline)]
 pub use rocking::housner::{
@@ -72,11 +76,7 @@ pub use springs::parameters::{Parameters, ParametersError, RememberedError};
 #[doc(inline)]
 pub use springs::predictability::simulate;
 #[doc(inline)]
-pub use springs::response::Response;
-#[doc(inline)]
-pub use springs::tuning::{
-    assessment::Assessment, job::JobError, paper_procedure::inner::FitError,
-};
+pub use springs::tuning::{assessment::Assessment, job::JobError};
 #[doc(inline)]
 pub use springs::validate::{
     Confusion, GeometricMean, Quantiles, RecordOutcome, Row, Suite, Summary, Validation,

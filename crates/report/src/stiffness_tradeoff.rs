@@ -16,10 +16,10 @@ use dynamics::{
     fem::{Analysis, Change, Control, Observer, Start, View},
     spring::{Design, Springs},
 };
+use landing::design::springs_at_stiffness;
 use rocking::scalar::GRAVITY;
 use springs::tuning::{
     job::{Job, Paper},
-    landing::design::springs_at_stiffness,
     paper_procedure::outer::{self, Benchmark, Bracket},
 };
 

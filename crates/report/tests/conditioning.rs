@@ -1,12 +1,11 @@
 //! The same case mirrored, shifted in time, in other units, at another scale: the same springs.
 
 use dynamics::spring::{Design, Springs};
+use landing::design::springs_at_stiffness;
 use rocking::structure::Structure;
 use springs::{
     case::{Case, Objective},
-    tuning::{
-        job::Job, landing::design::springs_at_stiffness, landing_simulation::report::landings,
-    },
+    tuning::{job::Job, landing_simulation::report::landings},
 };
 use strong_motion::Record;
 

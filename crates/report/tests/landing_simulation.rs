@@ -6,11 +6,14 @@ use dynamics::{
     fem::{Analysis, Control, Start},
     spring::{Design, Springs},
 };
+use landing::{
+    design::{Geometry, springs_at_stiffness},
+    universal::universal,
+    weight,
+};
 use rocking::structure::{Body, Structure};
 use springs::tuning::{
     capped_springs::{follow, with_restitution},
-    landing::design::springs_at_stiffness,
-    landing::{design::Geometry, universal::universal, weight},
     landing_simulation::report::{LandingRow, landings},
     paper_procedure::outer::Bracket,
 };

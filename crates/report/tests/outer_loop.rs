@@ -1,13 +1,16 @@
 //! Omega_n by the accuracy asked for: what the springs that are taken hold, and the ceiling.
 
 use dynamics::fem::Control;
+use landing::{
+    corners::CornerDynamics,
+    design::{Geometry, springs_at_stiffness},
+    plane::land,
+};
 use rocking::structure::Structure;
 use springs::{
     case::Case,
     tuning::{
         job::{CEILING_HZ, Job},
-        landing::design::springs_at_stiffness,
-        landing::{corners::CornerDynamics, design::Geometry, plane::land},
         landing_simulation::report::landings,
         suite::Suites,
     },

@@ -12,7 +12,9 @@
 use nalgebra::Const;
 use num_dual::DualSVec64;
 
-use crate::housner::{Rocking, RockingOptions, RockingOutcome, solve, solve_lanes};
+use crate::housner::{
+    Rocking, RockingOptions, RockingOutcome, solve, solve_lanes, solve_with_derivatives,
+};
 use crate::motion::nrmse;
 use crate::overturning::samples_until;
 use crate::structure::Body;
@@ -208,7 +210,7 @@ pub fn sensitivity(
         initial: options.initial.map(|(theta, rate)| (real(theta), real(rate))),
         max_work: options.max_work,
     };
-    let rocking = solve(&dual_body, dt, accel, &dual_options);
+    let rocking = solve_with_derivatives(&dual_body, dt, accel, &dual_options);
     let (mut below, mut above) = (0.0, [0.0; 2]);
     for &theta in rocking.theta.iter().take(samples_until(rocking.overturned(), dt)) {
         let u = dual_body.u(theta);

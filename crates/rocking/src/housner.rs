@@ -147,7 +147,17 @@ pub struct Rocking<S> {
 /// assert_eq!(rocking.uplifts[0].side, -1.0);
 /// assert!(!rocking.impacts.is_empty());
 /// ```
-pub fn solve<S: Scalar>(
+pub fn solve(
+    body: &Body<f64>,
+    dt: f64,
+    accel: &[f64],
+    options: &RockingOptions<f64>,
+) -> Rocking<f64> {
+    solve_with_derivatives(body, dt, accel, options)
+}
+
+/// The same in dual numbers: the history and its derivatives by what of body and options has some.
+pub fn solve_with_derivatives<S: Scalar>(
     body: &Body<S>,
     dt: f64,
     accel: &[f64],

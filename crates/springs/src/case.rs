@@ -45,12 +45,12 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::response::{bounds::Bounds, target::Target};
 pub use elastic::ElasticCase;
 pub use error::CaseError;
 pub use error::parse_error;
 pub use error::text_of;
 use fixed_steps::FixedStepProgram;
+use frequency_response::{bounds::Bounds, target::Target};
 pub use limits::Limits;
 pub use limits::{ACCURACY, MAX_HZ, PEAKS};
 use program::ProgramSection;

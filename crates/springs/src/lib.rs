@@ -7,7 +7,6 @@ pub mod answers;
 pub mod case;
 pub mod parameters;
 pub mod predictability;
-pub mod response;
 pub mod results;
 pub mod rigid_forces;
 pub mod tuning;

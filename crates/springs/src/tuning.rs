@@ -19,8 +19,6 @@ pub mod job;
 
 mod ladder;
 
-pub mod landing;
-
 pub mod stiffness_search;
 
 /// CMA-ES, which that search walks by.

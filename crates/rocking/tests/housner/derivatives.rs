@@ -1,7 +1,7 @@
 //! Derivatives through uplifts and impacts against finite differences of the f64 run.
 
 use num_dual::{Dual64, DualNum};
-use rocking::housner::{RockingOptions, solve};
+use rocking::housner::{RockingOptions, solve, solve_with_derivatives};
 use rocking::structure::{Body, Structure};
 use strong_motion::Record;
 
@@ -35,7 +35,8 @@ fn theta_by_width_on_el_centro_through_twelve_impacts() {
     let accel = Record::el_centro().accel;
     let dual_options =
         RockingOptions { duration: Some(20.0), ..RockingOptions::<Dual64>::default() };
-    let dual = solve(&wide(body, Dual64::new(0.0, 1.0)), 0.01, &accel, &dual_options);
+    let dual =
+        solve_with_derivatives(&wide(body, Dual64::new(0.0, 1.0)), 0.01, &accel, &dual_options);
     let options = RockingOptions { duration: Some(20.0), ..RockingOptions::default() };
     let expected = differences(|x| solve(&wide(body, x), 0.01, &accel, &options).theta, 1e-5);
     let exact: Vec<f64> = dual.theta.iter().map(|theta| theta.eps).collect();
@@ -57,8 +58,11 @@ fn theta_by_scale_on_el_centro_of_a_solid_block() {
     };
     let dual_body = Structure::block(4.0, 1.0, 100.0).unwrap().body::<Dual64>();
     let options = RockingOptions { scale: Dual64::new(1.5, 1.0), ..RockingOptions::default() };
-    let exact: Vec<f64> =
-        solve(&dual_body, 0.01, accel, &options).theta.iter().map(|theta| theta.eps).collect();
+    let exact: Vec<f64> = solve_with_derivatives(&dual_body, 0.01, accel, &options)
+        .theta
+        .iter()
+        .map(|theta| theta.eps)
+        .collect();
     let expected = differences(|x| run(1.5 + x).theta, 1e-5);
     assert!(run(1.5).impacts.len() > 3);
     let error = relative_error(&exact, &expected);
@@ -70,7 +74,7 @@ fn impact_and_uplift_times_carry_derivatives() {
     let body = Structure::paper().body::<f64>();
     let accel = Record::el_centro().accel;
     let options = RockingOptions { duration: Some(20.0), ..RockingOptions::<Dual64>::default() };
-    let dual = solve(&wide(body, Dual64::new(0.0, 1.0)), 0.01, &accel, &options);
+    let dual = solve_with_derivatives(&wide(body, Dual64::new(0.0, 1.0)), 0.01, &accel, &options);
     let run = |x: f64| {
         solve(
             &wide(body, x),
@@ -104,7 +108,7 @@ fn a_quarter_period_differentiates_as_its_closed_form() {
     let phi = 0.4_f64;
     let theta = Dual64::new(phi, 1.0) * body.alpha().re;
     let options = RockingOptions { initial: Some((theta, lift(0.0))), ..RockingOptions::default() };
-    let rocking = solve(&body, 0.01, &[0.0; 300], &options);
+    let rocking = solve_with_derivatives(&body, 0.01, &[0.0; 300], &options);
     let p = body.p_squared().re.sqrt();
     let expected = 1.0 / (p * (1.0 - phi) * (1.0 - (1.0 - phi).powi(2)).sqrt());
     assert!((rocking.impacts[0].time.eps / expected - 1.0).abs() < 1e-7);

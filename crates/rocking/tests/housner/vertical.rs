@@ -5,7 +5,9 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use num_dual::Dual64;
-use rocking::housner::{Rocking, RockingOptions, RockingOutcome, solve, solve_lanes};
+use rocking::housner::{
+    Rocking, RockingOptions, RockingOutcome, solve, solve_lanes, solve_with_derivatives,
+};
 use rocking::scalar::GRAVITY;
 use rocking::structure::{Body, Structure};
 use strong_motion::Record;
@@ -304,7 +306,7 @@ fn derivatives_pass_through_uplifts_and_impacts_with_vertical_motion() {
     let dual = |width: f64, scale: f64| {
         let body = structure.body::<Dual64>();
         let body = Body { half_width: body.half_width * Dual64::new(1.0, width), ..body };
-        solve(
+        solve_with_derivatives(
             &body,
             0.01,
             &accel,

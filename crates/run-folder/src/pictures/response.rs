@@ -2,8 +2,8 @@
 
 use dynamics::spring::Design;
 use figures::{FigureError, Sheet};
-use springs::response::{
-    self,
+use frequency_response::{
+    response,
     target::{Band, BandKind, Target},
 };
 

@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     job::Job,
-    landing::{corners::CornerDynamics, design::Geometry, plane::land, weight},
     landing_simulation::differs_from_housner,
     stiffness_search,
     suite::{Accuracy, JudgedOn, MeasuredErrors, PeakAccuracy},
@@ -14,6 +13,7 @@ use crate::{
     case::{Objective, Tuning, Yardstick},
     validate::PREDICTABLE,
 };
+use landing::{corners::CornerDynamics, design::Geometry, plane::land, weight};
 
 /// The landing of the springs in the stiff limit, where they follow from the geometry.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,17 +1,15 @@
 //! Springs from the geometry alone, before anything is searched: those that the ladder of Omega_n
 //! begins with.
 
-use super::{
-    landing::{
-        design::{Geometry, springs_at_stiffness},
-        weight,
-    },
-    stiffness_search,
-};
+use super::stiffness_search;
 use crate::{case::Asked, validate::PREDICTABLE};
 use dynamics::{
     compare::LEAST_LEAN,
     spring::{Design, Springs},
+};
+use landing::{
+    design::{Geometry, springs_at_stiffness},
+    weight,
 };
 use rocking::structure::Body;
 
@@ -35,7 +33,7 @@ pub fn springs_at_once(body: &Body<f64>, asked: Asked) -> Option<Springs<Design<
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tuning::landing::weight::restitution_error;
+    use landing::weight::restitution_error;
     use rocking::structure::Structure;
 
     #[test]

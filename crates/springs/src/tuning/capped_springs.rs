@@ -12,7 +12,6 @@ use rayon::prelude::*;
 
 use super::{
     descent::{LeastSquares, descend},
-    landing::design::Geometry,
     landing_simulation::{Criterion, WholeModel},
     paper_procedure::outer::Bracket,
     search::search,
@@ -22,6 +21,7 @@ use dynamics::{
     fem::Control,
     spring::{Design, Springs},
 };
+use landing::design::Geometry;
 use rocking::{scalar::GRAVITY, structure::Body};
 
 /// Stiffness ratio K, damping number C, mass ratio mu: least and largest.

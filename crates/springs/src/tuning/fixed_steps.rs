@@ -26,7 +26,6 @@
 use rayon::prelude::*;
 
 use super::{
-    landing::{corners::CornerDynamics, design::for_landing},
     landing_simulation::differs_from_housner,
     suite::{JudgedOn, Suites},
 };
@@ -41,6 +40,7 @@ use fixed_steps::{
     measured::{ErrorsOverMotions, ReferenceHistory},
     recipe::{FixedStepSpringsError, UnitNumbers},
 };
+use landing::{corners::CornerDynamics, design::for_landing};
 use rocking::structure::Body;
 
 /// Rebound v_r/v_n over K, of the universal chain.

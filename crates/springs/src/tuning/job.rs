@@ -11,14 +11,12 @@ use rayon::join;
 
 use super::{
     fixed_steps::ProgramSprings,
-    paper_procedure::{
-        inner::Fit,
-        outer::{self, Benchmark},
-    },
+    paper_procedure::outer::{self, Benchmark},
     stiffness_search::{Rung, Tuned},
     suite::Suites,
 };
 pub use error::JobError;
+use frequency_response::inner::Fit;
 use landing_design::LandingDesign;
 use procedure::Procedure;
 

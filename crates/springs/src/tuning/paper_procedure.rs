@@ -1,16 +1,6 @@
-//! The paper's inner fit: f and xi of a mass ratio mu by the shape of the frequency response (ARR,
-//! equation 7).
-
-pub mod certificate;
-
-pub mod excess;
-
-pub mod inner;
-
-pub mod minimax;
+//! The paper's procedure: Omega_n by the error of a history, after the inner fit of the crate
+//! `frequency_response`.
 
 pub mod outer;
-
-pub mod smooth;
 
 pub mod table_1;

@@ -29,9 +29,9 @@ use std::f64::consts::TAU;
 
 use nalgebra::DMatrix;
 
-use crate::tuning::landing::{corners::CornerDynamics, part::for_part};
 use dynamics::spring::{Chain, Springs};
 use frames::standing::{FixedResponse, FootingInertia, Standing};
+use landing::{corners::CornerDynamics, part::for_part};
 use rocking::scalar::GRAVITY;
 
 /// The numbers in the choice of K.
@@ -71,7 +71,7 @@ pub struct CornerSprings {
 /// What lands at a footing, in units of its mass.
 #[derive(Clone, Debug)]
 struct Lands {
-    corners: CornerDynamics<f64>,
+    corners: CornerDynamics,
     /// (kg)
     mass: f64,
     /// Effective mass under the landing corner, over that.

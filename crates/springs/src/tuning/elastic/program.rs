@@ -11,8 +11,6 @@
 //! stepped as the program does, on the motions that the structure's other springs are judged on and
 //! on the record, and the one is kept that loses fewer of them, then the one that errs less.
 
-use std::ops::ControlFlow;
-
 use rayon::prelude::*;
 
 use super::{
@@ -27,13 +25,13 @@ use dynamics::{
     spring::{Chain, Springs},
 };
 use fixed_steps::{
-    FixedStepAnalysis, FixedStepFrame, FixedStepOutcome, FixedStepProgram, StepSettings,
+    FixedStepAnalysis, FixedStepFrame, FixedStepFrameHistory, FixedStepOutcome, FixedStepProgram,
+    StepSettings,
     expected::FLOOR,
     measured::{ErrorsOverMotions, StepErrors},
     recipe::FixedStepDesign,
 };
 use frames::{
-    Mechanics,
     assembled::{Assembled, errors},
     peaks::StructurePeaks,
     standing::Standing,
@@ -166,21 +164,15 @@ fn stepped(
     let frame = FixedStepFrame::new(&model.frame, springs).ok()?;
     let analysis = FixedStepAnalysis::new(&frame, settings, trial.dt, &trial.accel);
     let analysis = FixedStepAnalysis { vertical: &trial.vertical, ..analysis };
-    let (coordinates, samples) = (model.frame.size(), trial.accel.len());
-    let mut all: Vec<Vec<f64>> = Vec::with_capacity(samples);
-    let (outcome, work) = analysis
-        .follow(|_, q| {
-            all.push(q[..coordinates].to_vec());
-            ControlFlow::Continue(())
-        })
-        .ok()?;
+    let FixedStepFrameHistory { coordinates, outcome, work } = analysis.history().ok()?;
     let lost = StepErrors { outcome, history: f64::INFINITY, peak: f64::INFINITY, work };
     if outcome != FixedStepOutcome::Finished {
         return Some(lost);
     }
-    let sways = model.sways(all.iter().map(Vec::as_slice));
+    let sways = model.sways(coordinates.iter().map(Vec::as_slice));
     let [rotations, _] = errors(&trial.reference, &sways, trial.accel.len());
-    let peak =
-        StructurePeaks::of(model, all.iter().map(Vec::as_slice)).beside(&trial.peaks).largest();
+    let peak = StructurePeaks::of(model, coordinates.iter().map(Vec::as_slice))
+        .beside(&trial.peaks)
+        .largest();
     Some(StepErrors { history: rotations, peak, ..lost })
 }

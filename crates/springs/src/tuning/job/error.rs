@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::tuning::paper_procedure::inner::FitError;
+use frequency_response::inner::FitError;
 
 /// Why there are no springs.
 #[derive(Debug, Error)]

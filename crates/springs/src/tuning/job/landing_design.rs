@@ -7,9 +7,7 @@ use super::{CEILING_HZ, JobError, Procedure, evaluate};
 use crate::{
     case::{Case, Yardstick},
     tuning::{
-        at_once, capped_springs,
-        landing::design::{Geometry, springs_at_stiffness},
-        landing_simulation,
+        at_once, capped_springs, landing_simulation,
         paper_procedure::outer::Bracket,
         stiffness_search::{self, Tuned},
         suite::Suites,
@@ -20,6 +18,7 @@ use dynamics::{
     fem::Control,
     spring::{Design, Springs},
 };
+use landing::design::{Geometry, springs_at_stiffness};
 use rocking::structure::Body;
 
 /// Omega_n of springs that are to have another restitution than equation 2's, where no cap is given

@@ -8,14 +8,12 @@ use super::{CEILING_HZ, JobError, evaluate};
 use crate::{
     case::Case,
     tuning::{
-        paper_procedure::{
-            inner::{Fit, FitError, fit},
-            outer::{self, Benchmark, Bracket, Refinement},
-        },
+        paper_procedure::outer::{self, Benchmark, Bracket, Refinement},
         stiffness_search::{self, Tuned},
         suite::Suites,
     },
 };
+use frequency_response::inner::{Fit, FitError, fit};
 
 /// The paper's procedure on one record.
 pub(super) struct Procedure<'a> {

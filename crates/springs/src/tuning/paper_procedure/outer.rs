@@ -20,12 +20,12 @@ use rayon::prelude::*;
 
 pub(crate) use refinement::Refinement;
 
-use super::inner::Fit;
 use dynamics::{
     effort::Effort,
     fem::{Analysis, Control, Finish, HistoryOutcome, Start, View},
     spring::{Design, Springs},
 };
+use frequency_response::inner::Fit;
 use rocking::{motion::Motion, scalar::GRAVITY, structure::Body};
 
 /// Candidates judged against one threshold: more would abandon later, fewer would idle threads. The

@@ -59,7 +59,7 @@ fn small_errors_are_measured_again_with_fine_steps() {
     let effort = Effort::unbounded();
     let benchmark =
         Benchmark { body, dt: record.dt, accel, vertical: &[], housner: &housner, effort: &effort };
-    let springs = crate::tuning::landing::design::springs_at_stiffness(&body, 1e5).unwrap();
+    let springs = landing::design::springs_at_stiffness(&body, 1e5).unwrap();
     let found = benchmark.judge(&springs, f64::INFINITY);
     assert!(found.error < CERTAIN, "{}", found.error);
     assert_eq!(found, benchmark.judge_with(&springs, f64::INFINITY, Control::search()));

@@ -26,10 +26,9 @@
 use super::{
     chain::FOLLOWED,
     corners::{CornerDynamics, DIRECTIONS},
-    linear::{SquareMatrix, dot, exponential, times},
+    linear::{SquareMatrix, combined, dot, exponential, times, transposed},
 };
 use dynamics::spring::{Design, Springs};
-use rocking::scalar::{Scalar, real};
 
 /// p, a, p', a', and the impulses through the corners.
 const N: usize = 5 * DIRECTIONS;
@@ -49,18 +48,18 @@ const EDGE: f64 = 1e-13;
 
 /// What a landing does.
 #[derive(Clone, Copy, Debug)]
-pub struct PlaneLanding<S> {
+pub struct PlaneLanding {
     /// Angular momentum about the new foot over that before: 1 is Housner's, equation 2.
-    pub momentum: S,
+    pub momentum: f64,
     /// Vertical impulse through the old foot, J_old [m v_n]; never negative.
-    pub old_impulse: S,
+    pub old_impulse: f64,
     /// Energy of the velocities that differ from those after the plastic landing, over the energy
     /// that it takes.
-    pub deviation: S,
+    pub deviation: f64,
     /// Fastest speed with which the new foot leaves the ground (v_n).
-    pub rebound: S,
+    pub rebound: f64,
     /// Time with both feet in the air [1/Omega_n].
-    pub air: S,
+    pub air: f64,
     /// Touches and lifts of the new foot and of the old foot.
     pub changes: [usize; 2],
     /// Whether the landing was followed to its stated end: not if the feet chatter.
@@ -69,61 +68,61 @@ pub struct PlaneLanding<S> {
 
 /// Land the structure on units of these designs, whose frequencies count relative to the vertical
 /// one's; followed to [`FOLLOWED`].
-pub fn land<S: Scalar>(
-    corners: &CornerDynamics<S>,
-    springs: &Springs<Design<S>>,
-) -> PlaneLanding<S> {
+pub fn land(corners: &CornerDynamics, springs: &Springs<Design<f64>>) -> PlaneLanding {
     let mut run = LandingRun::new(corners, springs);
-    while run.time.re() < FOLLOWED && run.changes[0] + run.changes[1] < MOST_CHANGES {
+    while run.time < FOLLOWED && run.changes[0] + run.changes[1] < MOST_CHANGES {
         run.advance();
     }
     run.finish(corners)
 }
 
 /// One landing under way.
-struct LandingRun<S> {
-    w: [[S; DIRECTIONS]; DIRECTIONS],
+struct LandingRun {
+    w: [[f64; DIRECTIONS]; DIRECTIONS],
     /// k1, k2, m2, c of x and z.
-    units: [[S; 4]; 2],
-    y: [S; N],
+    units: [[f64; 4]; 2],
+    y: [f64; N],
     /// Which feet press: old, new.
     closed: [bool; 2],
-    time: S,
+    time: f64,
     step: f64,
-    /// A y and exp(A step) of the present contact.
-    motion: (SquareMatrix<S, N>, SquareMatrix<S, N>),
-    rebound: S,
-    air: S,
+    /// y' = A y of the present contact.
+    a: SquareMatrix<f64, N>,
+    /// exp(A step), column by column.
+    one_step: SquareMatrix<f64, N>,
+    rebound: f64,
+    air: f64,
     changes: [usize; 2],
 }
 
-impl<S: Scalar> LandingRun<S> {
-    fn new(corners: &CornerDynamics<S>, springs: &Springs<Design<S>>) -> Self {
+impl LandingRun {
+    fn new(corners: &CornerDynamics, springs: &Springs<Design<f64>>) -> Self {
         let ratio = springs.horizontal.omega_n_hz / springs.vertical.omega_n_hz;
-        let unit = |d: &Design<S>, omega: S| {
+        let unit = |d: &Design<f64>, omega: f64| {
             let k1 = omega * omega;
             [k1, d.k() * k1, d.mu, d.c() * omega]
         };
-        let units = [unit(&springs.horizontal, ratio), unit(&springs.vertical, S::one())];
+        let units = [unit(&springs.horizontal, ratio), unit(&springs.vertical, 1.0)];
         let fastest = (0..DIRECTIONS)
             .map(|i| {
-                let [k1, k2, m2, c] = units[i % 2].map(|x| x.re());
+                let [k1, k2, m2, c] = units[i % 2];
                 let of_absorber = (k1 + k2) / m2 + (c / m2).powi(2);
-                (corners.w[i][i].re() * k1).max(of_absorber)
+                (corners.w[i][i] * k1).max(of_absorber)
             })
             .fold(1.0, f64::max);
-        let mut y = [S::zero(); N];
-        y[RATE + 3] = -S::one();
+        let mut y = [0.0; N];
+        y[RATE + 3] = -1.0;
         let mut run = Self {
             w: corners.w,
             units,
             y,
             closed: [true; 2],
-            time: S::zero(),
+            time: 0.0,
             step: STEP / fastest.sqrt(),
-            motion: ([[S::zero(); N]; N], [[S::zero(); N]; N]),
-            rebound: S::zero(),
-            air: S::zero(),
+            a: [[0.0; N]; N],
+            one_step: [[0.0; N]; N],
+            rebound: 0.0,
+            air: 0.0,
             changes: [0, 1],
         };
         run.take_contact();
@@ -132,11 +131,11 @@ impl<S: Scalar> LandingRun<S> {
 
     /// The motion of the present contact.
     fn take_contact(&mut self) {
-        let mut a = [[S::zero(); N]; N];
+        let mut a = [[0.0; N]; N];
         for i in 0..DIRECTIONS {
             let [k1, k2, m2, c] = self.units[i % 2];
-            a[i][RATE + i] = S::one();
-            a[A + i][A_RATE + i] = S::one();
+            a[i][RATE + i] = 1.0;
+            a[A + i][A_RATE + i] = 1.0;
             a[A_RATE + i][A + i] -= k2 / m2;
             a[A_RATE + i][A_RATE + i] -= c / m2;
             if self.closed[i / 2] {
@@ -151,12 +150,13 @@ impl<S: Scalar> LandingRun<S> {
                 }
             }
         }
-        self.motion = (a, exponential(&a, real(self.step)));
+        self.a = a;
+        self.one_step = transposed(&exponential(&a, self.step));
     }
 
     /// What must stay positive while a foot's contact lasts: its force, or its distance from the
     /// absorber.
-    fn lasts(&self, foot: usize, y: &[S; N]) -> (S, S) {
+    fn lasts(&self, foot: usize, y: &[f64; N]) -> (f64, f64) {
         let z = 2 * foot + 1;
         let sign = if self.closed[foot] { 1.0 } else { -1.0 };
         ((y[A + z] - y[z]) * sign, (y[A_RATE + z] - y[RATE + z]) * sign)
@@ -164,26 +164,26 @@ impl<S: Scalar> LandingRun<S> {
 
     /// One step, or up to the next change of contact.
     fn advance(&mut self) {
-        let left = real::<S>(FOLLOWED) - self.time;
-        let whole = left.re() > self.step;
+        let left = FOLLOWED - self.time;
+        let whole = left > self.step;
         let next = if whole {
-            times(&self.motion.1, &self.y)
+            combined(&self.one_step, &self.y)
         } else {
-            times(&exponential(&self.motion.0, left), &self.y)
+            times(&exponential(&self.a, left), &self.y)
         };
-        let mut first: Option<(S, [S; N], usize)> = None;
+        let mut first: Option<(f64, [f64; N], usize)> = None;
         for foot in 0..2 {
-            if self.lasts(foot, &next).0.re() >= -EDGE {
+            if self.lasts(foot, &next).0 >= -EDGE {
                 continue;
             }
-            let (tau, y) = self.locate(foot, if whole { self.step } else { left.re() });
-            if first.as_ref().is_none_or(|(earliest, ..)| tau.re() < earliest.re()) {
+            let (tau, y) = self.locate(foot, if whole { self.step } else { left });
+            if first.as_ref().is_none_or(|(earliest, ..)| tau < *earliest) {
                 first = Some((tau, y, foot));
             }
         }
         let (tau, y, changed) = match first {
             Some((tau, y, foot)) => (tau, y, Some(foot)),
-            None => (if whole { real(self.step) } else { left }, next, None),
+            None => (if whole { self.step } else { left }, next, None),
         };
         if !self.closed[0] && !self.closed[1] {
             self.air += tau;
@@ -196,29 +196,30 @@ impl<S: Scalar> LandingRun<S> {
     }
 
     /// When within the step the foot's contact changes, and the state there.
-    fn locate(&self, foot: usize, step: f64) -> (S, [S; N]) {
+    fn locate(&self, foot: usize, step: f64) -> (f64, [f64; N]) {
         // a foot at the edge that goes the wrong way changes at once
-        if self.lasts(foot, &self.y).0.re() <= EDGE {
-            return (S::zero(), self.y);
+        if self.lasts(foot, &self.y).0 <= EDGE {
+            return (0.0, self.y);
         }
-        let at = |tau: S| times(&exponential(&self.motion.0, tau), &self.y);
+        let at = |tau: f64| times(&exponential(&self.a, tau), &self.y);
         let (mut low, mut high) = (0.0, step);
-        let mut tau: S = real(0.5 * step);
+        let mut tau = 0.5 * step;
+        let mut y = at(tau);
         for _ in 0..NEWTON {
-            let (value, rate) = self.lasts(foot, &at(tau));
-            if value.re() > 0.0 {
-                low = tau.re();
+            let (value, rate) = self.lasts(foot, &y);
+            if value > 0.0 {
+                low = tau;
             } else {
-                high = tau.re();
+                high = tau;
             }
             let newton = tau - value / rate;
-            tau = if newton.re() >= low && newton.re() <= high {
-                newton
-            } else {
-                real(0.5 * (low + high))
-            };
+            let next = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
+            if next == tau {
+                break;
+            }
+            (tau, y) = (next, at(next));
         }
-        (tau, at(tau))
+        (tau, y)
     }
 
     fn change(&mut self, foot: usize) {
@@ -228,17 +229,17 @@ impl<S: Scalar> LandingRun<S> {
         if self.closed[foot] {
             // anchored where it lands: only differences of x count
             self.y[x] = self.y[A + x];
-        } else if foot == 1 && self.y[RATE + z].re() > self.rebound.re() {
+        } else if foot == 1 && self.y[RATE + z] > self.rebound {
             self.rebound = self.y[RATE + z];
         }
         self.take_contact();
     }
 
-    fn finish(&self, corners: &CornerDynamics<S>) -> PlaneLanding<S> {
+    fn finish(&self, corners: &CornerDynamics) -> PlaneLanding {
         let old_impulse = self.y[IMPULSE + 1];
-        let beyond: [S; DIRECTIONS] =
+        let beyond: [f64; DIRECTIONS] =
             std::array::from_fn(|i| self.y[IMPULSE + i] - corners.plastic[i]);
-        let energy = |j: &[S; DIRECTIONS]| dot(j, &times(&corners.w, j));
+        let energy = |j: &[f64; DIRECTIONS]| dot(j, &times(&corners.w, j));
         PlaneLanding {
             momentum: old_impulse * corners.width / corners.momentum + 1.0,
             old_impulse,
@@ -246,7 +247,7 @@ impl<S: Scalar> LandingRun<S> {
             rebound: self.rebound,
             air: self.air,
             changes: [self.changes[0], self.changes[1]],
-            complete: self.time.re() >= FOLLOWED * (1.0 - 1e-12),
+            complete: self.time >= FOLLOWED * (1.0 - 1e-12),
         }
     }
 }

@@ -63,7 +63,7 @@ impl<F: Fn(&[f64]) -> f64> CostFunction for Search<F> {
 
 /// Springs for a part of an elastic structure that lands on these corners, in units of its mass, at
 /// K; frequencies relative to the vertical Omega_n.
-pub(crate) fn for_part(corners: &CornerDynamics<f64>, k: f64) -> Springs<Design<f64>> {
+pub fn for_part(corners: &CornerDynamics, k: f64) -> Springs<Design<f64>> {
     let m = corners.effective_mass()[1];
     // free to turn: the horizontal units are the faster ones
     let across = corners.w[2][2].recip();
@@ -81,7 +81,7 @@ pub(crate) fn for_part(corners: &CornerDynamics<f64>, k: f64) -> Springs<Design<
 }
 
 /// These springs with mu and C of their vertical units as the landing wants them.
-fn sought(corners: &CornerDynamics<f64>, springs: &Springs<Design<f64>>) -> Springs<Design<f64>> {
+fn sought(corners: &CornerDynamics, springs: &Springs<Design<f64>>) -> Springs<Design<f64>> {
     let Design { mu, omega_n_hz, .. } = springs.vertical;
     let (k, c) = (springs.vertical.k(), springs.vertical.c());
     let at = |x: &[f64]| Springs {
@@ -103,10 +103,10 @@ fn sought(corners: &CornerDynamics<f64>, springs: &Springs<Design<f64>>) -> Spri
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tuning::landing::design::for_landing;
+    use crate::design::for_landing;
 
     /// W of a free block of half width b and half height h, over 1/m.
-    fn block(b: f64, h: f64) -> CornerDynamics<f64> {
+    fn block(b: f64, h: f64) -> CornerDynamics {
         let inertia = (b * b + h * h) / 3.0;
         let g = [[1.0, 0.0, -h], [0.0, 1.0, b], [1.0, 0.0, -h], [0.0, 1.0, -b]];
         let w = |i: usize, j: usize| {

@@ -2,7 +2,7 @@
 //! closely as it can.
 //!
 //! ```text
-//!  minimise over (f, xi)   t = max over bands and g of the excess      (see `response::target`)
+//!  minimise over (f, xi)   t = max over bands and g of the excess      (see `target`)
 //! ```
 //!
 //! Stage 1 (`smooth`) minimises a smooth stand-in by L-BFGS from several starts; stage 2
@@ -17,8 +17,8 @@ use super::certificate::{Certificate, Problem};
 use super::excess::{SearchParameters, curves, largest, points, response};
 use super::minimax::{Minimum, minimise};
 use super::smooth::Smooth;
-use crate::response::bounds::{Bounds, BoundsError};
-use crate::response::target::{Target, TargetError};
+use crate::bounds::{Bounds, BoundsError};
+use crate::target::{Target, TargetError};
 
 /// How a fit ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -79,7 +79,7 @@ const SAME: f64 = 0.05;
 /// The springs of mass ratio mu whose response follows the target best.
 ///
 /// ```
-/// use springs::{response::{bounds::Bounds, target::Target}, tuning::paper_procedure::inner::fit};
+/// use frequency_response::{bounds::Bounds, inner::fit, target::Target};
 ///
 /// // mu -> 0: K = 1/2 and a largest ARR of 3
 /// let fit = fit(1e-3, &Target::default(), &Bounds::default()).unwrap();

@@ -11,39 +11,38 @@
 //! equation 2 would have the base turn backwards.
 
 use super::linear::dot;
-use rocking::scalar::{Scalar, real};
 
 /// Corner directions: old foot x, z, new foot x, z.
-pub(crate) const DIRECTIONS: usize = 4;
+pub const DIRECTIONS: usize = 4;
 /// Least I_cg/(m R^2): the limit of a massless rotation. The smaller it is the faster the body
 /// turns on its springs, at Omega_h/sqrt(I_cg/m R^2), without a change of the outcome.
 const LEAST_INERTIA: f64 = 1e-3;
 
 /// The structure as its corners feel it.
 #[derive(Clone, Copy, Debug)]
-pub struct CornerDynamics<S> {
+pub struct CornerDynamics {
     /// W = G M^-1 G', over 1/m; rows and columns old foot x, z, new foot x, z.
-    pub w: [[S; DIRECTIONS]; DIRECTIONS],
+    pub w: [[f64; DIRECTIONS]; DIRECTIONS],
     /// 2b, between the feet (R).
-    pub width: S,
+    pub width: f64,
     /// Angular momentum about the new foot before the landing, while the body turns about the old
     /// foot and the new foot comes down with speed 1 [m R v_n].
-    pub momentum: S,
+    pub momentum: f64,
     /// Rate at which the body turns about the new foot after a landing without impulse at the old
     /// one [v_n/R].
-    pub rate: S,
+    pub rate: f64,
     /// Impulses J* of the plastic landing [m v_n].
-    pub plastic: [S; DIRECTIONS],
+    pub plastic: [f64; DIRECTIONS],
 }
 
-impl<S: Scalar> CornerDynamics<S> {
+impl CornerDynamics {
     /// Of a rigid body of slenderness alpha and mass share m R^2/I0; one whose mass is all in one
     /// point, m R^2/I0 = 1, as the limit of little rotational inertia.
-    pub fn rigid(alpha: S, mass_share: S) -> Self {
+    pub fn rigid(alpha: f64, mass_share: f64) -> Self {
         let inertia = mass_share.recip() - 1.0;
-        let inertia = if inertia.re() < LEAST_INERTIA { real(LEAST_INERTIA) } else { inertia };
+        let inertia = if inertia < LEAST_INERTIA { LEAST_INERTIA } else { inertia };
         let (sin, cos) = (alpha.sin(), alpha.cos());
-        let (zero, one) = (S::zero(), S::one());
+        let (zero, one) = (0.0, 1.0);
         // G: (u, v, theta) of the centre of mass to x, z of the old foot (-b, -h) and the new one
         // (b, -h)
         let g = [[one, zero, -cos], [zero, one, sin], [one, zero, -cos], [zero, one, -sin]];
@@ -59,20 +58,20 @@ impl<S: Scalar> CornerDynamics<S> {
     }
 
     /// Of the two corners, `width` apart, of any structure, from W.
-    pub(crate) fn of(w: [[S; DIRECTIONS]; DIRECTIONS], width: S) -> Self {
+    pub fn of(w: [[f64; DIRECTIONS]; DIRECTIONS], width: f64) -> Self {
         // the new corner stops, by itself; the old one goes on at the rate of the body that turns
         // about it
         let alone = stopped(&w, &[2, 3]);
         let rate = velocity(&w, &alone, 1) / width;
         // what a unit force at the old corner does to it while the new one is held
         let held = eliminated(&w);
-        let momentum = if held.re() > 0.0 { width * width / held * rate } else { S::zero() };
+        let momentum = if held > 0.0 { width * width / held * rate } else { 0.0 };
         Self { w, width, momentum, rate, plastic: plastic(&w) }
     }
 
     /// Mass that the landing corner feels in its direction x or z while it may not move in the
     /// other: [(W_new)^-1]_zz. Of a rigid body vertically m (1 - (m R^2/I0) sin^2 alpha).
-    pub(crate) fn effective_mass(&self) -> [S; 2] {
+    pub fn effective_mass(&self) -> [f64; 2] {
         let [xx, xz, zz] = [self.w[2][2], self.w[2][3], self.w[3][3]];
         let determinant = xx * zz - xz * xz;
         [zz / determinant, xx / determinant]
@@ -80,50 +79,50 @@ impl<S: Scalar> CornerDynamics<S> {
 
     /// Whether a landing brings both corners to rest.
     #[cfg(test)]
-    pub(crate) fn stops(&self) -> bool {
-        self.plastic[1].re() > 0.0
+    pub fn stops(&self) -> bool {
+        self.plastic[1] > 0.0
     }
 }
 
 /// Impulses that bring the corners' `directions` to rest from a landing at speed 1.
-fn stopped<S: Scalar, const C: usize>(
-    w: &[[S; DIRECTIONS]; DIRECTIONS],
+fn stopped<const C: usize>(
+    w: &[[f64; DIRECTIONS]; DIRECTIONS],
     directions: &[usize; C],
-) -> [S; DIRECTIONS] {
+) -> [f64; DIRECTIONS] {
     let matrix = std::array::from_fn(|i| std::array::from_fn(|j| w[directions[i]][directions[j]]));
-    let approach = directions.map(|i| if i == 3 { S::one() } else { S::zero() });
-    let mut impulses = [S::zero(); DIRECTIONS];
-    for (direction, impulse) in directions.iter().zip(solved::<S, C>(matrix, approach)) {
+    let approach = directions.map(|i| if i == 3 { 1.0 } else { 0.0 });
+    let mut impulses = [0.0; DIRECTIONS];
+    for (direction, impulse) in directions.iter().zip(solved(matrix, approach)) {
         impulses[*direction] = impulse;
     }
     impulses
 }
 
 /// Velocity of a corner's direction after impulses.
-fn velocity<S: Scalar>(
-    w: &[[S; DIRECTIONS]; DIRECTIONS],
-    impulses: &[S; DIRECTIONS],
+fn velocity(
+    w: &[[f64; DIRECTIONS]; DIRECTIONS],
+    impulses: &[f64; DIRECTIONS],
     direction: usize,
-) -> S {
-    let before = if direction == 3 { -S::one() } else { S::zero() };
+) -> f64 {
+    let before = if direction == 3 { -1.0 } else { 0.0 };
     before + dot(&w[direction], impulses)
 }
 
 /// The plastic landing: of the new corner, or of both where the old one would go into the ground.
 /// Corners of one footing move alike horizontally, so that one of them holds both.
-fn plastic<S: Scalar>(w: &[[S; DIRECTIONS]; DIRECTIONS]) -> [S; DIRECTIONS] {
+fn plastic(w: &[[f64; DIRECTIONS]; DIRECTIONS]) -> [f64; DIRECTIONS] {
     let alone = stopped(w, &[2, 3]);
-    if velocity(w, &alone, 1).re() >= 0.0 { alone } else { stopped(w, &[1, 2, 3]) }
+    if velocity(w, &alone, 1) >= 0.0 { alone } else { stopped(w, &[1, 2, 3]) }
 }
 
 /// W of the old corner's vertical motion while the new one is held.
-fn eliminated<S: Scalar>(w: &[[S; DIRECTIONS]; DIRECTIONS]) -> S {
+fn eliminated(w: &[[f64; DIRECTIONS]; DIRECTIONS]) -> f64 {
     let at_new = solved([[w[2][2], w[2][3]], [w[3][2], w[3][3]]], [w[2][1], w[3][1]]);
     w[1][1] - w[1][2] * at_new[0] - w[1][3] * at_new[1]
 }
 
 /// A x = b for a small positive definite A.
-fn solved<S: Scalar, const C: usize>(mut a: [[S; C]; C], mut b: [S; C]) -> [S; C] {
+fn solved<const C: usize>(mut a: [[f64; C]; C], mut b: [f64; C]) -> [f64; C] {
     for i in 0..C {
         for j in i + 1..C {
             let factor = a[j][i] / a[i][i];

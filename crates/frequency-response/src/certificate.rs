@@ -18,7 +18,7 @@ use serde::Serialize;
 use super::excess::{
     BoundSide, ExcessPoint, QuadraticModel, SearchParameters, largest, points, response,
 };
-use crate::response::bounds::Region;
+use crate::bounds::Region;
 
 /// A frequency at which the fit is held: the largest excess is reached there.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -15,10 +15,6 @@
 
 use rocking::scalar::{Scalar, real};
 
-pub mod bounds;
-
-pub mod target;
-
 /// The response of one chain, as a function of the frequency ratio g.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Response<S> {
@@ -38,7 +34,7 @@ pub struct Response<S> {
 ///
 /// ```
 /// // far above resonance only the mass resists: ARR = 1/g^2
-/// assert!((springs::response::Response::new(0.1, 2.3, 9.0).arr(1e3) - 1e-6_f64).abs() < 1e-11);
+/// assert!((frequency_response::Response::new(0.1, 2.3, 9.0).arr(1e3) - 1e-6_f64).abs() < 1e-11);
 /// ```
 pub fn arr<S: Scalar>(g: S, mu: S, f: S, xi: S) -> S {
     Response::new(mu, f, xi).arr(g)

@@ -20,7 +20,7 @@ pub fn restitution_error(alpha: f64, mass_share: f64, stiffness: f64, lean: f64)
 }
 
 /// Omega_n/p at which that error is `error`.
-pub(crate) fn stiffness(alpha: f64, mass_share: f64, error: f64, lean: f64) -> f64 {
+pub fn stiffness(alpha: f64, mass_share: f64, error: f64, lean: f64) -> f64 {
     (factor(alpha, mass_share) / error).powf(0.75) / hardness(alpha, mass_share, 1.0, lean)
 }
 

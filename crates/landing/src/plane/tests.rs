@@ -1,11 +1,11 @@
 use super::*;
-use crate::tuning::landing::universal::universal;
+use crate::universal::universal;
 use approx::assert_relative_eq;
 use frames::{Pier, standing::Standing};
 use nalgebra::DVector;
 
 /// Units of the universal chain at K for what lands, horizontals `ratio` as stiff in frequency.
-fn designed(corners: &CornerDynamics<f64>, k: f64, ratio: f64) -> Springs<Design<f64>> {
+fn designed(corners: &CornerDynamics, k: f64, ratio: f64) -> Springs<Design<f64>> {
     let chain = universal(k);
     let [_, m] = corners.effective_mass();
     Springs {
@@ -18,7 +18,7 @@ fn designed(corners: &CornerDynamics<f64>, k: f64, ratio: f64) -> Springs<Design
 #[test]
 fn a_rigid_body_is_what_its_w_says() {
     for (alpha, share) in [(0.05_f64, 0.75), (0.2, 0.9), (0.5, 0.6), (0.9, 0.75), (1.2, 0.75)] {
-        let body = CornerDynamics::<f64>::rigid(alpha, share);
+        let body = CornerDynamics::rigid(alpha, share);
         let by_w = CornerDynamics::of(body.w, body.width);
         assert_relative_eq!(by_w.rate, body.rate, max_relative = 1e-10);
         assert_relative_eq!(by_w.momentum, body.momentum, max_relative = 1e-10);
@@ -37,7 +37,7 @@ fn a_rigid_body_is_what_its_w_says() {
 /// stops, J_new - J_old = I/(2b) v/2b over b.
 #[test]
 fn a_wide_footing_lands_on_both_corners() {
-    let body = CornerDynamics::<f64>::rigid(1.2, 0.75);
+    let body = CornerDynamics::rigid(1.2, 0.75);
     let (b, h): (f64, f64) = (1.2_f64.sin(), 1.2_f64.cos());
     // about the middle of the sole; the body turns at 1/(2b), its centre moves at 1/2 downwards and
     // h/(2b) across
@@ -54,7 +54,7 @@ fn a_wide_footing_lands_on_both_corners() {
 #[test]
 fn the_universal_chain_lands_rigid_bodies_and_footings() {
     for alpha in [0.1_f64, 0.4, 0.785, 1.0, 1.2, 1.4] {
-        let corners = CornerDynamics::<f64>::rigid(alpha, 0.75);
+        let corners = CornerDynamics::rigid(alpha, 0.75);
         for k in [0.02, 0.1, 0.4] {
             let landing = land(&corners, &designed(&corners, k, 4.0));
             let rebound = universal(k).rebound;
@@ -73,7 +73,7 @@ fn a_footing_under_a_column_lands_as_the_block_that_it_is() {
         let standing = Standing::new(&pier, &DVector::zeros(5)).unwrap();
         let w = &standing.footings[0].w;
         let radius = height.hypot(2.0);
-        let block = CornerDynamics::<f64>::rigid((2.0 / height).atan(), 0.75);
+        let block = CornerDynamics::rigid((2.0 / height).atan(), 0.75);
         let own = CornerDynamics::of(
             std::array::from_fn(|i| std::array::from_fn(|j| w[(i, j)] * 1.2e5)),
             4.0 / radius,

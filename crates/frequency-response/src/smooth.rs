@@ -16,7 +16,7 @@ use nalgebra::{SVector, Vector2};
 use num_dual::gradient;
 
 use super::excess::{BoundSide, SearchParameters, response};
-use crate::response::bounds::Region;
+use crate::bounds::Region;
 use rocking::scalar::{Scalar, real};
 
 /// Sharpness: F exceeds the largest psi by at most ln(60)/30 = 0.14, near enough to start the
@@ -118,9 +118,9 @@ impl Gradient for SmoothProblem<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::response::bounds::Bounds;
-    use crate::response::target::Target;
-    use crate::tuning::paper_procedure::excess::{curves, largest, points};
+    use crate::bounds::Bounds;
+    use crate::excess::{curves, largest, points};
+    use crate::target::Target;
 
     #[test]
     fn the_smooth_objective_lies_just_above_the_largest_excess() {

@@ -123,7 +123,7 @@ impl Geometry {
     }
 
     /// Omega_n v_n/g for a fall from alpha: (m R^2/I0) 2 alpha^2 Omega_n/p.
-    pub(crate) fn hardness(&self) -> f64 {
+    pub fn hardness(&self) -> f64 {
         2.0 * self.mass_share * self.alpha.powi(2) * self.stiffness
     }
 
@@ -160,7 +160,7 @@ impl Geometry {
 
 /// Springs for what lands on these corners, of effective mass `m` vertically in units of its mass,
 /// at K; frequencies relative to the vertical Omega_n.
-pub(crate) fn for_landing(corners: &CornerDynamics<f64>, m: f64, k: f64) -> Springs<Design<f64>> {
+pub fn for_landing(corners: &CornerDynamics, m: f64, k: f64) -> Springs<Design<f64>> {
     let Universal { k, c, mu, .. } = universal(k);
     let mut springs = Springs {
         vertical: Design::from_kc(mu * m, k, c * m.sqrt(), 1.0),

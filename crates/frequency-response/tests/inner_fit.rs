@@ -8,10 +8,10 @@
 //! - large mu: two peaks near the fixed points hold it, f^2 about (mu - 1)/mu, ARR about sqrt(2
 //!   mu).
 
-use springs::response::Response;
-use springs::response::bounds::{Bounds, k_min_for_settlement};
-use springs::response::target::{Band, BandKind, Target};
-use springs::tuning::paper_procedure::inner::{Fit, FitError, FitOutcome, families, fit};
+use frequency_response::Response;
+use frequency_response::bounds::{Bounds, k_min_for_settlement};
+use frequency_response::inner::{Fit, FitError, FitOutcome, families, fit};
+use frequency_response::target::{Band, BandKind, Target};
 
 fn minimax(mu: f64) -> Fit {
     fit(mu, &Target::default(), &Bounds::default()).unwrap()

@@ -13,7 +13,7 @@ use nalgebra::{Matrix2, SVector, Vector2, vector};
 use num_dual::{Dual2SVec64, DualNum, first_derivative, hessian, second_derivative};
 
 use crate::response::Response;
-use crate::response::target::{BandKind, Target};
+use crate::target::{BandKind, Target};
 use rocking::scalar::{Scalar, real};
 
 /// The searched parameters z = (ln K, ln C). At fixed mu, ln f and ln xi are half of the first and
@@ -258,7 +258,7 @@ pub(crate) fn largest(points: &[ExcessPoint]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::response::target::Band;
+    use crate::target::Band;
 
     fn bands() -> Vec<BoundSide> {
         let band = |g_low, g_high, kind| Band { g_low, g_high, kind, limit: 0.5, weight: 2.0 };

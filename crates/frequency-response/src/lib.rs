@@ -1,0 +1,25 @@
+//! The frequency response of a spring-absorber unit (ARR, equation 7), and the paper's inner fit:
+//! f and xi of a mass ratio mu that bring it to a wanted shape.
+//!
+//! | file | what |
+//! |---|---|
+//! | `response` | equations 5 to 7 |
+//! | `target`, `bounds` | the wanted shape; where f and xi may lie |
+//! | `excess` | by how much the response exceeds its target, with exact derivatives |
+//! | `smooth`, `minimax` | the fit: L-BFGS on a smooth maximum, then exact minimax steps |
+//! | `certificate` | what proves that a fit is a minimum |
+//! | `inner` | all of it: `fit` |
+
+// what is printed goes through the program's `commands/terminal`
+#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
+
+pub mod bounds;
+pub mod certificate;
+pub mod excess;
+pub mod inner;
+pub mod minimax;
+pub mod response;
+pub mod smooth;
+pub mod target;
+
+pub use response::{Response, arr};
