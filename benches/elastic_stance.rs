@@ -5,15 +5,13 @@
 //! cargo bench --bench elastic_stance
 //! ```
 
+use cases::{Asked, Yardstick};
 use dynamics::fem::Control;
 use frames::{assembled::Assembled, standing::Standing, structure::ElasticStructure};
-use springs::{
-    case::{Asked, Yardstick},
-    tuning::elastic::{
-        design::{BALANCE, KBalance, with_k},
-        landing_speed, stand,
-        suite::ElasticSuite,
-    },
+use springs::elastic::{
+    design::{BALANCE, KBalance, with_k},
+    landing_speed, stand,
+    suite::ElasticSuite,
 };
 
 /// Factors on the scale, and values of the turn.

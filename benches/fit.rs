@@ -2,9 +2,10 @@
 
 use std::{hint::black_box, time::Duration};
 
+use cases::Case;
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use frequency_response::{bounds::Bounds, inner::fit, target::Target};
-use springs::{case::Case, tuning::job::Job};
+use springs::job::Job;
 
 fn inner(c: &mut Criterion) {
     let mut group = c.benchmark_group("inner fit");

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! Motions are of seed 31; the search chooses on those of seed 77. No spring of the program was
-//! chosen on either. The stances that a run tries (`tuning::fixed_steps::STANCES`) were chosen by
+//! chosen on either. The stances that a run tries (`springs::fixed_steps::STANCES`) were chosen by
 //! what the third command prints, on motions of seeds 5 and 6.
 
 use std::path::Path;
@@ -26,7 +26,7 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use rocking::structure::{Body, Structure};
-use springs::tuning::fixed_steps::{LONGEST, design};
+use springs::fixed_steps::{LONGEST, design};
 
 type BenchError = Box<dyn std::error::Error>;
 

@@ -9,16 +9,14 @@
 //! cargo bench --bench stance
 //! ```
 
+use cases::{Asked, Yardstick};
 use dynamics::{fem::Control, spring::Design};
 use landing::{
     design::{Geometry, springs_at_stiffness},
     universal::universal,
 };
 use rocking::structure::Structure;
-use springs::{
-    case::{Asked, Yardstick},
-    tuning::suite::Suites,
-};
+use springs::suite::Suites;
 
 const SCALES: [f64; 6] = [0.45, 0.9, 1.3, 1.8, 2.5, 3.6];
 const STIFFNESSES: [f64; 3] = [5e3, 2e4, 8e4];

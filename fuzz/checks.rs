@@ -8,9 +8,10 @@
 
 use std::path::Path;
 
+use cases::Case;
 use dynamics::fem;
+use parameters::Parameters;
 use rocking::housner::{self, RockingOptions};
-use springs::{case::Case, parameters::Parameters};
 use strong_motion::{ReadOptions, Record, Recording, Units};
 
 /// An error's message is one line a user can read.
@@ -102,7 +103,7 @@ pub fn case(bytes: &[u8]) {
         Record::parse("motion.txt", b"0.1\n0.3\n-0.2\n", options)
     };
     let case: Result<Case, _> =
-        springs::case::parse_with("case.toml", text, &ReadOptions::default(), no_file);
+        cases::parse_with("case.toml", text, &ReadOptions::default(), no_file);
     match case {
         Ok(case) => {
             checked(&case.record);

@@ -6,17 +6,15 @@ use clap::{Parser, Subcommand};
 use thiserror::Error;
 
 use ::sweep::SweepError;
+use cases::CaseError;
 use decks::{ExportError, verify::VerifyError};
 use figures::FigureError;
 use files::message::printable;
 use frequency_response::inner::FitError;
 use landing::design::GeometryError;
+use parameters::{ParametersError, RememberedError};
 use run_folder::FolderError;
-use springs::{
-    case::CaseError,
-    parameters::{ParametersError, RememberedError},
-    tuning::job::JobError,
-};
+use springs::job::JobError;
 use strong_motion::RecordError;
 
 mod bounds;

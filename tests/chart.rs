@@ -4,7 +4,7 @@ use std::{f64::consts::TAU, path::Path, process::Command};
 
 use dynamics::spring::{Design, Springs};
 use rocking::structure::Structure;
-use springs::tuning::landing_simulation::report::landings;
+use springs::landing_simulation::report::landings;
 
 /// A row of chart.csv: kind, alpha, Omega_n/p, and (K, mu, f, xi) of the vertical units,
 /// Omega_h/Omega_v.

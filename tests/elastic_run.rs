@@ -5,8 +5,8 @@ use std::{
     process::{Command, Output},
 };
 
+use parameters::elastic::ElasticParameters;
 use serde_json::Value;
-use springs::parameters::elastic::ElasticParameters;
 
 const PIER: &str = include_str!("../tuning/pier.toml");
 

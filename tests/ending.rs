@@ -6,11 +6,9 @@ use std::{
     process::{Command, Output},
 };
 
+use cases::Case;
 use serde_json::Value;
-use springs::{
-    case::Case,
-    tuning::job::{Job, JobError},
-};
+use springs::job::{Job, JobError};
 use strong_motion::Record;
 
 /// Light, with the inertia of a heavy one, and another restitution than equation 2's: a search over

@@ -4,9 +4,9 @@ use std::{fs, path::Path, process::Output};
 
 use assert_cmd::Command;
 use dynamics::spring::{Design, Springs};
+use parameters::Parameters;
 use rocking::structure::Structure;
 use serde_json::Value;
-use springs::parameters::Parameters;
 use strong_motion::Record;
 use tempfile::TempDir;
 

@@ -7,11 +7,11 @@ use dynamics::{
     fem::{Analysis, Control, History, Start},
     spring::{Design, Springs},
 };
+use parameters::Parameters;
 use rocking::{
     motion::{Motion, nrmse},
     structure::Structure,
 };
-use springs::parameters::Parameters;
 use strong_motion::Record;
 
 /// The tolerance of the history that errors are told against; the next tighter one confirms it.

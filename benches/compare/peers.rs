@@ -11,8 +11,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{Peer, Point, Series, elements, rigid};
 use decks::{DeckFormat, Expected, export};
+use parameters::predictability::width_sensitivity;
 use rocking::motion::Motion;
-use springs::predictability::width_sensitivity;
 
 /// What housner.py reads.
 #[derive(Serialize)]

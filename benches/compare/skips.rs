@@ -14,7 +14,8 @@ use dynamics::{
 };
 use rocking::housner;
 use rocking::motion::nrmse;
-use springs::{tuning::paper_procedure::outer::Benchmark, validate::ComparisonObserver};
+use springs::paper_procedure::outer::Benchmark;
+use validation::ComparisonObserver;
 
 /// One thing that is skipped.
 #[derive(Clone, Debug)]

@@ -1,15 +1,13 @@
 //! The design from the geometry, without units, and the frequency response.
 
 use ::frequency_response::{bounds::Bounds, inner::fit, response, target::Target};
+use cases::{Asked, Yardstick};
 use dynamics::spring;
 use landing::design::Geometry;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use rocking::scalar::GRAVITY;
-use springs::{
-    case::{Asked, Yardstick},
-    tuning::stiffness_search,
-};
+use springs::stiffness_search;
 
 use crate::{
     Array, numbers,

@@ -4,7 +4,7 @@
 use numpy::{PyArray1, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::{prelude::*, types::PyDict};
 
-use springs::case::LONGEST_S;
+use cases::LONGEST_S;
 
 use crate::said::value_error;
 

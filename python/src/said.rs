@@ -7,8 +7,8 @@ use pyo3::{
     exceptions::{PyUserWarning, PyValueError},
     prelude::*,
 };
+use results::{FiledFinding, Weight};
 use serde::Serialize;
-use springs::results::{FiledFinding, Weight};
 
 use crate::words::in_python;
 

@@ -4,6 +4,7 @@ use std::{borrow::Cow, sync::Arc};
 
 use dynamics::fem::{self, QUANTITIES};
 use numpy::PyArray1;
+use parameters::answers::{ModelComparison, both};
 use pyo3::{
     prelude::*,
     types::{PyDict, PyTuple},
@@ -13,12 +14,9 @@ use report::{
     reference::{self, HousnerReport},
     rigid::RigidRun,
 };
+use results::FiledFinding;
 use rocking::members::Members;
-use springs::{
-    answers::{ModelComparison, both},
-    results::FiledFinding,
-    verdict::Verdict,
-};
+use validation::verdict::Verdict;
 
 use crate::{
     Array,

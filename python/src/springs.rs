@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use dynamics::spring;
 use frames::standing::{FixedResponse, FootingInertia, Standing};
 use nalgebra::DMatrix;
+use parameters::Parameters;
 use pyo3::prelude::*;
-use springs::{parameters::Parameters, tuning::elastic::design};
+use springs::elastic::design;
 
 use crate::{
     said::value_error,

@@ -2,9 +2,9 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
+use cases::StructureSection;
 use pyo3::prelude::*;
 use rocking::structure::{Body, Kind, Structure as Core};
-use springs::case::StructureSection;
 
 use crate::said::value_error;
 

@@ -2,13 +2,11 @@
 
 use std::{path::PathBuf, sync::Arc};
 
+use cases::{Case, Objective, Tuning};
 use pyo3::{IntoPyObjectExt, prelude::*, types::PyTuple};
 use report::rigid::RigidRun;
 use run_folder::rigid::{Output, save};
-use springs::{
-    case::{Case, Objective, Tuning},
-    tuning::job::Job,
-};
+use springs::job::Job;
 use strong_motion::excitation::Excitation;
 
 use crate::{

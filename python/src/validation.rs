@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use dynamics::fem::Control;
 use pyo3::{prelude::*, types::PyTuple};
 use rocking::synthetic;
-use springs::validate::{self as core, Validator};
+use validation::{self as core, Validator};
 
 use strong_motion::{ReadOptions, RecordError};
 

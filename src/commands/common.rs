@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{CommandError, terminal};
-use springs::case::{LONGEST_S, NO_MOTION};
+use cases::{LONGEST_S, NO_MOTION};
 use strong_motion::{
     Notice, ReadOptions, Recording, Source, TableColumn, Units, VerticalFrom,
     excitation::Excitation,

@@ -10,16 +10,14 @@ use decks::{
     with_inertia,
 };
 use frames::fem::{ElasticAnalysis, ElasticStart};
+use parameters::{Parameters, elastic::ElasticParameters, program::ProgramRow};
+use results::FiledFinding;
 use run_folder::{
     elastic::{deck, stepped_deck as stepped_deck_of},
     folder::of_one_run,
     models::DECKS,
     place::file_in,
     place::write_file,
-};
-use springs::{
-    parameters::{Parameters, elastic::ElasticParameters, program::ProgramRow},
-    results::FiledFinding,
 };
 use strong_motion::Record;
 

@@ -9,6 +9,7 @@ use super::{
     common::{RecordOptions, restitution},
     terminal,
 };
+use cases::Case;
 use rocking::{
     housner::{self, RockingOutcome},
     motion::peak,
@@ -16,7 +17,6 @@ use rocking::{
     structure::Structure,
 };
 use run_folder::{place::file_in, place::write_file, tables::csv_row};
-use springs::case::Case;
 
 /// Options of `tune housner`.
 #[derive(Debug, Args)]

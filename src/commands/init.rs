@@ -195,7 +195,7 @@ pub fn run(o: &InitOptions) -> Result<(), CommandError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use springs::case::{Case, ElasticCase};
+    use cases::{Case, ElasticCase};
 
     #[test]
     fn both_files_are_cases() {

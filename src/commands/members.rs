@@ -5,8 +5,8 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use dynamics::fem::{Demands, QUANTITIES};
+use parameters::answers::MemberHistory;
 use rocking::motion::TimedPeak;
-use springs::answers::MemberHistory;
 
 /// Largest forces and their times, as JSON.
 fn forces(peaks: &[TimedPeak; QUANTITIES.len()]) -> Value {

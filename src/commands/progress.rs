@@ -8,8 +8,8 @@ use std::{
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::terminal;
+use cases::doubts::Doubt;
 use files::message::percent;
-use springs::case::doubts::Doubt;
 
 /// Shows how far a piece of work is.
 pub struct Progress {

@@ -9,12 +9,12 @@ use comfy_table::{Table, presets};
 use serde::Serialize;
 
 use super::{CommandError, terminal};
+use cases::{Case, LONGEST_S};
 use files::message::printable;
 use rocking::{scalar::GRAVITY, structure::Body};
 use row::ComponentRow;
 use run_folder::FolderError;
 use run_folder::place::check_folder;
-use springs::case::{Case, LONGEST_S};
 use strong_motion::{ReadOptions, RecordFormat, Recording, Source, TableColumn, Units};
 
 /// Options of `tune record`.

@@ -5,12 +5,12 @@ use std::{fmt::Write, path::PathBuf};
 use clap::Args;
 
 use super::{CommandError, terminal};
+use cases::Case;
 use frequency_response::{
     bounds::Bounds,
     inner::{Fit, fit},
     target::Target,
 };
-use springs::case::Case;
 
 /// Options of `tune response`.
 #[derive(Debug, Args)]

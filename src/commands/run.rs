@@ -14,6 +14,10 @@ use super::{
     progress::{self, Progress},
     terminal,
 };
+use cases::{
+    ACCURACY, Asked, Case, ElasticCase, Limits, MAX_HZ, Objective, PEAKS, Yardstick, text_of,
+};
+use parameters::Parameters;
 use program::ProgramOptions;
 use report::{
     FiledParameters, Run,
@@ -22,19 +26,13 @@ use report::{
     screen::{Written, screen},
     stiffness_tradeoff,
 };
+use results::NotDone;
 use run_folder::{
     folder::{Folder, identity},
     place::{check_folder, write_file},
     rigid::{Output, filed, files, save, write_report},
 };
-use springs::{
-    case::{
-        ACCURACY, Asked, Case, ElasticCase, Limits, MAX_HZ, Objective, PEAKS, Yardstick, text_of,
-    },
-    parameters::Parameters,
-    results::NotDone,
-    tuning::job::{Job, MOST_WORK},
-};
+use springs::job::{Job, MOST_WORK};
 use strong_motion::{Record, excitation::Excitation};
 
 /// Options of `tune run`.

@@ -9,6 +9,7 @@ use super::{
     common::{GroundOptions, RecordOptions, restitution},
     members, terminal,
 };
+use parameters::{Parameters, answers::both};
 use report::{
     filed,
     reference::{self, HousnerReport},
@@ -18,7 +19,6 @@ use run_folder::{
     place::{file_in, write_file},
     tables::{Instants, history_csv, members_csv},
 };
-use springs::{answers::both, parameters::Parameters};
 
 /// Options of `tune simulate`.
 #[derive(Debug, Args)]

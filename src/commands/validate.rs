@@ -12,19 +12,17 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::{CommandError, common, progress::Progress, run::threads, terminal};
+use cases::LONGEST_S;
 use dynamics::{fem, spring::ChainRow};
 use files::message::one_line;
+use parameters::Parameters;
 use rocking::{conditioning::ILL_CONDITIONED, structure::Structure, synthetic};
 use run_folder::{
     folder::Folder, folder::identity, folder::of_one_run, pictures::subtitle, place::check_folder,
     place::write_file,
 };
-use springs::{
-    case::LONGEST_S,
-    parameters::Parameters,
-    validate::{Validation, Validator},
-};
 use strong_motion::{Notice, ReadOptions, Record, RecordError, Recording, Units};
+use validation::{Validation, Validator};
 
 /// Options of `tune validate`.
 #[derive(Debug, Args)]

@@ -23,14 +23,11 @@ use decks::{
 };
 use figures::history::{self, HistoryFigure, Trace};
 use files::message::percent;
+use parameters::{Parameters, elastic::ElasticParameters, predictability::ForetoldEnd};
 use rocking::motion::Motion;
 use run_folder::{
     folder::Folder, folder::identity, folder::of_one_run, pictures::subtitle, place::check_folder,
     place::write_file, tables::csv_row,
-};
-use springs::{
-    parameters::{Parameters, elastic::ElasticParameters},
-    predictability::ForetoldEnd,
 };
 use strong_motion::Record;
 

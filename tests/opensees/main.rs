@@ -8,21 +8,19 @@
 
 mod elastic;
 
+use cases::{Case, Objective};
 use decks::{
     ACCURACY,
     verify::{LIMIT, Program, VerifyError, verify},
     with_inertia,
 };
 use dynamics::spring::{Design, Springs};
+use parameters::Parameters;
 use rocking::{
     members::{Damper, Members, Tendon},
     structure::Structure,
 };
-use springs::{
-    case::{Case, Objective},
-    parameters::Parameters,
-    tuning::job::Job,
-};
+use springs::job::Job;
 use strong_motion::Record;
 
 /// Largest NRMSE of u, v and theta against our own history.

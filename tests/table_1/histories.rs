@@ -6,11 +6,11 @@ use dynamics::{
     fem::{Analysis, Control, History, Start},
     spring::{Design, Springs},
 };
+use parameters::Parameters;
 use rocking::{
     housner::{self, RockingOptions},
     structure::Structure,
 };
-use springs::parameters::Parameters;
 use strong_motion::Record;
 
 fn simulate(springs: &Springs<Design<f64>>, dt: f64, accel: &[f64]) -> History {

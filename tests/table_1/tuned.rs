@@ -4,8 +4,9 @@
 use dynamics::compare::Match;
 use std::sync::LazyLock;
 
+use cases::Case;
 use dynamics::fem::{self, Control, History, Start};
-use springs::{case::Case, tuning::job::Job};
+use springs::job::Job;
 
 struct Tuned {
     job: Job,

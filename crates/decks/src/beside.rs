@@ -1,10 +1,10 @@
 //! Housner's answer beside that of a program's steps, for the joint that a user compares.
 
+use parameters::Parameters;
 use rocking::{
     housner::{self, RockingOptions},
     structure::Structure,
 };
-use springs::parameters::Parameters;
 use strong_motion::Record;
 
 /// Largest and least displacement of the centre of mass by Housner's equation (m), over so many

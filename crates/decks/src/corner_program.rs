@@ -5,14 +5,12 @@ use dynamics::spring::{Chain, Springs};
 use fixed_steps::{FixedStepAnalysis, FixedStepFrame, FixedStepOutcome, GaveUp};
 use frames::{Mechanics, assembled::Assembled, frame::EquilibriumError};
 use nalgebra::DVector;
-use rocking::scalar::GRAVITY;
-use springs::{
-    parameters::{
-        elastic::CornerRow,
-        program::{CornerUnits, ProgramRow},
-    },
-    tuning::elastic::program::for_substep,
+use parameters::{
+    corner::CornerRow,
+    program::{CornerUnits, ProgramRow},
 };
+use rocking::scalar::GRAVITY;
+use springs::elastic::program::for_substep;
 use strong_motion::Record;
 
 use crate::{

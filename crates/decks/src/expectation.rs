@@ -2,12 +2,12 @@
 
 use super::FALLEN;
 use frames::answer::{Compared, ComparedEnd};
-use rocking::motion::Motion;
-use springs::{
-    parameters::Parameters,
+use parameters::{
+    Parameters,
     predictability::{Foretold, ForetoldEnd, foretold_until, until_flight},
-    results::DeckEnd,
 };
+use results::DeckEnd;
+use rocking::motion::Motion;
 use strong_motion::Record;
 
 /// Over how much of a record a deck must find our own history.

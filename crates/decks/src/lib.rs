@@ -39,11 +39,11 @@ use model::DeckModel;
 pub use model::equal_steps;
 pub use model::{ACCURACY, with_inertia};
 pub use output::OutputSteps;
-use rocking::motion::Motion;
-use springs::{
-    parameters::Parameters,
+use parameters::{
+    Parameters,
     predictability::{simulate, width_sensitivity},
 };
+use rocking::motion::Motion;
 pub use step_count::deck_steps;
 pub use stepping::{SteppedDeck, Stepping, even_deck, samples_to, stepped_deck, stepped_history};
 use strong_motion::Record;

@@ -2,11 +2,11 @@
 
 use super::{Expected, ExportError, plain::NamedSprings, printable, stepping::EvenSteps};
 use dynamics::spring::{Chain, Springs};
+use parameters::Parameters;
 use rocking::{
     members::Members,
     structure::{Body, Kind, Structure},
 };
-use springs::parameters::Parameters;
 use strong_motion::Record;
 
 /// Rotational inertia, as a share of m R^2, that a deck gives to a body that has none: OpenSees and

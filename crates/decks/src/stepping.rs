@@ -7,15 +7,13 @@ use fixed_steps::{
     iteration::{ConvergenceTest, Iteration},
     recipe::TOLERANCE,
 };
-use rocking::{motion::Motion, scalar::GRAVITY, structure::Structure};
-use springs::{
-    parameters::{
-        Parameters,
-        program::{ProgramRow, ProgramTest},
-    },
-    results::NotToBeUsed,
-    tuning::fixed_steps::design,
+use parameters::{
+    Parameters,
+    program::{ProgramRow, ProgramTest},
 };
+use results::NotToBeUsed;
+use rocking::{motion::Motion, scalar::GRAVITY, structure::Structure};
+use springs::fixed_steps::design;
 use strong_motion::Record;
 
 use crate::{

@@ -13,15 +13,15 @@ use std::{
 use thiserror::Error;
 
 use crate::{Expected, ExportError, export, foretold_rigid, with_inertia};
+use parameters::{
+    Parameters,
+    predictability::{simulate, slightly_wider, standing_error},
+};
 pub use peaks::{ComparedPeak, swings};
 pub use program::Program;
 use rocking::{
     housner,
     motion::{Motion, nrmse},
-};
-use springs::{
-    parameters::Parameters,
-    predictability::{simulate, slightly_wider, standing_error},
 };
 use strong_motion::Record;
 pub use verdict::{LIMIT, OpenSeesVerdict};

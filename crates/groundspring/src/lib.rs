@@ -37,6 +37,8 @@
 #![warn(missing_docs)]
 
 #[doc(inline)]
+pub use cases::{Case, CaseError, Objective, Tuning};
+#[doc(inline)]
 pub use decks::{DeckFormat, ExportError, deck};
 #[doc(inline)]
 pub use dynamics::compare::Match;
@@ -50,6 +52,12 @@ pub use dynamics::spring::{Chain, ChainRow, Design, Springs};
 pub use frequency_response::Response;
 #[doc(inline)]
 pub use frequency_response::inner::FitError;
+#[doc(inline)]
+pub use parameters::answers::{MemberHistory, ModelComparison, compare, validate};
+#[doc(inline)]
+pub use parameters::predictability::simulate;
+#[doc(inline)]
+pub use parameters::{Parameters, ParametersError, RememberedError};
 #[doc(inline)]
 pub use rocking::conditioning::{Changes, Conditioning, Sensitivity};
 #[doc(inline)]
@@ -68,26 +76,18 @@ pub use rocking::structure::{Body, Kind, Structure, StructureError};
 #[doc(inline)]
 pub use rocking::synthetic::{earthquake as earthquake_motion, record as synthetic_motion};
 #[doc(inline)]
-pub use springs::answers::{MemberHistory, ModelComparison, compare, validate};
-#[doc(inline)]
-pub use springs::case::{Case, CaseError, Objective, Tuning};
-#[doc(inline)]
-pub use springs::parameters::{Parameters, ParametersError, RememberedError};
-#[doc(inline)]
-pub use springs::predictability::simulate;
-#[doc(inline)]
-pub use springs::tuning::{assessment::Assessment, job::JobError};
-#[doc(inline)]
-pub use springs::validate::{
-    Confusion, GeometricMean, Quantiles, RecordOutcome, Row, Suite, Summary, Validation,
-};
-#[doc(inline)]
-pub use springs::verdict::{Answer, Fate, Verdict};
+pub use springs::{assessment::Assessment, job::JobError};
 #[doc(inline)]
 pub use strong_motion::excitation::Excitation;
 #[doc(inline)]
 pub use strong_motion::{
     Notice, ReadOptions, Record, RecordError, Source, Units, UnitsError, Vertical, VerticalFrom,
+};
+#[doc(inline)]
+pub use validation::verdict::{Answer, Fate, Verdict};
+#[doc(inline)]
+pub use validation::{
+    Confusion, GeometricMean, Quantiles, RecordOutcome, Row, Suite, Summary, Validation,
 };
 
 /// Tune the springs of a case: what `tune run` does, without its histories.
@@ -96,5 +96,5 @@ pub use strong_motion::{
 /// No springs that settle as little as asked for; for the paper's procedure, a record that does not
 /// lift the structure.
 pub fn tune(case: &Case) -> Result<Parameters, JobError> {
-    Ok(Parameters::of(case, &springs::tuning::job::Job::new(case, &|_, _, _| ())?))
+    Ok(Parameters::of(case, &springs::job::Job::new(case, &|_, _, _| ())?))
 }

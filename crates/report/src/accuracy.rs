@@ -3,15 +3,13 @@
 use serde::Serialize;
 
 use super::Table;
+use cases::Yardstick;
 use files::message::{percent, significant};
 use springs::{
-    case::Yardstick,
-    tuning::{
-        assessment::Assessment,
-        suite::{Accuracy, LOOSER, PeakAccuracy, Statistic},
-    },
-    validate::PeakErrors,
+    assessment::Assessment,
+    suite::{Accuracy, LOOSER, PeakAccuracy, Statistic},
 };
+use validation::PeakErrors;
 
 /// What the record of the run is called.
 pub(crate) const THIS_RECORD: &str = "this record";

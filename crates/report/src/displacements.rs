@@ -2,7 +2,7 @@
 
 use super::{FiledParameters, Run, Table};
 use files::message::{percent, quantity, significant};
-use springs::results::{PeakTimes, Peaks};
+use results::{PeakTimes, Peaks};
 
 /// A row's name, its quantity, its words, and when it is largest (s).
 type PeakRow =

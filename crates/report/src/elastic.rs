@@ -7,11 +7,7 @@ pub(crate) mod springs;
 
 use self::springs::{alone, springs_findings};
 use super::{Assumed, FiledParameters, Run, Section, Table, doubts, judged};
-use ::springs::{
-    case::{ElasticCase, doubts::Doubt},
-    parameters::elastic::{ElasticParameters, OnRecord},
-    results::{DesignForce, DesignForces, Ending, Finding, FindingModel, ForceName, PeakChange},
-};
+use cases::{ElasticCase, doubts::Doubt};
 use dynamics::{
     fem::HistoryOutcome,
     spring::{Chain, Springs},
@@ -26,7 +22,9 @@ use frames::{
     reference::{ReferenceOutcome, Stop},
     structure::ElasticStructure,
 };
+use parameters::elastic::{ElasticParameters, OnRecord};
 pub use peaks::{SAME_IMPACT, impacts};
+use results::{DesignForce, DesignForces, Ending, Finding, FindingModel, ForceName, PeakChange};
 use rocking::{
     members::Members,
     motion::{TimedPeak, peak},

@@ -4,12 +4,12 @@ use rayon::join;
 
 use decks::{DeckExpectation, with_inertia};
 use frames::{answer::ElasticHistories, assembled::Assembled};
-use rocking::structure::Structure;
-use springs::{
-    parameters::Parameters,
+use parameters::{
+    Parameters,
     predictability::{simulate, slightly_wider},
-    results::{DeckEnd, Finding},
 };
+use results::{DeckEnd, Finding};
+use rocking::structure::Structure;
 use strong_motion::Record;
 
 /// Of a rigid body.

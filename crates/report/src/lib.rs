@@ -32,20 +32,18 @@ use serde::Serialize;
 
 use accuracy::Unjudged;
 pub use accuracy::{AccuracyOn, AccuracyReport};
+use cases::{
+    assumptions::{AssumedQuantity, Assumption},
+    doubts::Doubt,
+};
 pub use displacements::{peak_table, summary};
 pub use markdown::{force_value, height};
+use parameters::{Parameters, elastic::ElasticParameters};
 pub use program::ProgramReport;
-pub use springs::results::predictable_to;
-use springs::{
-    case::{
-        assumptions::{AssumedQuantity, Assumption},
-        doubts::Doubt,
-    },
-    parameters::{Parameters, elastic::ElasticParameters},
-    results::{
-        DesignForce, DesignForces, FiledFinding, Finding, ForceName, PeakChange, PeakPair, Weight,
-        findings::HARDLY_ROCKS,
-    },
+pub use results::predictable_to;
+use results::{
+    DesignForce, DesignForces, FiledFinding, Finding, ForceName, PeakChange, PeakPair, Weight,
+    findings::HARDLY_ROCKS,
 };
 pub use table::Table;
 

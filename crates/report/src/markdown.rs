@@ -2,7 +2,7 @@
 
 use super::{FiledParameters, Run, Section, Table, peak_table, sentence};
 use files::message::{percent, quantity, significant};
-use springs::results::{DesignForce, DesignForces, ForceName, OtherForces};
+use results::{DesignForce, DesignForces, ForceName, OtherForces};
 
 /// The whole of it.
 pub fn markdown(run: &Run) -> String {

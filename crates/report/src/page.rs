@@ -10,7 +10,7 @@ use super::{
     sentence,
 };
 use files::message::{percent, quantity};
-use springs::results::{FiledFinding, Weight};
+use results::{FiledFinding, Weight};
 
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");

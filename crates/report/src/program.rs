@@ -8,15 +8,13 @@ use super::{Section, Table, Unit, elastic::springs::corner_units, filed, predict
 use decks::OutputSteps;
 use errors::{ErrorWords, errors, table};
 use files::message::{quantity, significant};
-use springs::{
-    parameters::{
-        Parameters, RecordRow,
-        elastic::ElasticParameters,
-        program::{FootUnits, ProgramOnRecord, ProgramRow, ProgramTest},
-    },
-    results::{FiledFinding, Finding, NotToBeUsed, PeakPair, ProgramFault},
-    tuning::fixed_steps::THROUGH,
+use parameters::{
+    Parameters, RecordRow,
+    elastic::ElasticParameters,
+    program::{FootUnits, ProgramOnRecord, ProgramRow, ProgramTest},
 };
+use results::{FiledFinding, Finding, NotToBeUsed, PeakPair, ProgramFault};
+use springs::fixed_steps::THROUGH;
 
 /// Letters of a name in the first column of a screen.
 const NAME: usize = 9;

@@ -2,6 +2,8 @@
 //! history is, and whether rocking holds.
 
 use dynamics::fem::{self, HistoryOutcome};
+use parameters::answers::ModelComparison;
+use results::{Ending, Finding, FindingModel, findings::HARDLY_ROCKS};
 use rocking::{
     conditioning::Conditioning,
     housner::{self, Rocking},
@@ -9,12 +11,8 @@ use rocking::{
     regime::{self, Regime},
     structure::{Body, Structure},
 };
-use springs::{
-    answers::ModelComparison,
-    results::{Ending, Finding, FindingModel, findings::HARDLY_ROCKS},
-    verdict::{Answer, Fate, Verdict},
-};
 use strong_motion::Record;
+use validation::verdict::{Answer, Fate, Verdict};
 
 /// Largest rotation, over alpha, of a body that rocks.
 const ROCKS: f64 = 0.02;

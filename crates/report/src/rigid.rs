@@ -14,26 +14,26 @@ use super::{
     stiffness_tradeoff::TradeoffPoint,
     unit_of,
 };
+use cases::{Case, Objective, doubts::Doubt};
 use decks::{equal_steps, stepped_history};
 use dynamics::spring::{Design, Springs};
 use files::message::{percent, quantity, significant};
 use fixed_steps::FixedStepHistory;
 use limits::springs_findings;
+use parameters::{
+    ConditioningRow, PaperProcedure, Parameters,
+    answers::{MemberHistory, ModelComparison, both, with_members},
+    rigid_forces::design_forces,
+};
 use peaks::{peaks, peaks_to};
+use results::{Finding, PeakChange};
 use rocking::{
     housner::RockingOutcome,
     members::Members,
     regime,
     structure::{Kind, Structure},
 };
-use springs::{
-    answers::{MemberHistory, ModelComparison, both, with_members},
-    case::{Case, Objective, doubts::Doubt},
-    parameters::{ConditioningRow, PaperProcedure, Parameters},
-    results::{Finding, PeakChange},
-    rigid_forces::design_forces,
-    tuning::{job::Job, paper_procedure::table_1},
-};
+use springs::{job::Job, paper_procedure::table_1};
 use strong_motion::Record;
 
 /// A job done: springs, both models' histories, and what parameters.json holds.

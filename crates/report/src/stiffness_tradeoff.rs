@@ -18,7 +18,7 @@ use dynamics::{
 };
 use landing::design::springs_at_stiffness;
 use rocking::scalar::GRAVITY;
-use springs::tuning::{
+use springs::{
     job::{Job, Paper},
     paper_procedure::outer::{self, Benchmark, Bracket},
 };

@@ -2,7 +2,7 @@
 
 use crate::{HOUSNER, Run, predictable_to, sentence};
 use files::message::{quantity, significant};
-use springs::results::{DeckEnd, Finding, FindingModel, Weight, apart_words};
+use results::{DeckEnd, Finding, FindingModel, Weight, apart_words};
 
 impl Run {
     /// What the run was asked, in one sentence.

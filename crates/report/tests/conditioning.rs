@@ -1,12 +1,10 @@
 //! The same case mirrored, shifted in time, in other units, at another scale: the same springs.
 
+use cases::{Case, Objective};
 use dynamics::spring::{Design, Springs};
 use landing::design::springs_at_stiffness;
 use rocking::structure::Structure;
-use springs::{
-    case::{Case, Objective},
-    tuning::{job::Job, landing_simulation::report::landings},
-};
+use springs::{job::Job, landing_simulation::report::landings};
 use strong_motion::Record;
 
 /// The paper's frame on 10 s of El Centro, begun at rest, few candidates.

@@ -12,7 +12,7 @@ use landing::{
     weight,
 };
 use rocking::structure::{Body, Structure};
-use springs::tuning::{
+use springs::{
     capped_springs::{follow, with_restitution},
     landing_simulation::report::{LandingRow, landings},
     paper_procedure::outer::Bracket,

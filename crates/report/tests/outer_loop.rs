@@ -1,5 +1,6 @@
 //! Omega_n by the accuracy asked for: what the springs that are taken hold, and the ceiling.
 
+use cases::Case;
 use dynamics::fem::Control;
 use landing::{
     corners::CornerDynamics,
@@ -8,14 +9,11 @@ use landing::{
 };
 use rocking::structure::Structure;
 use springs::{
-    case::Case,
-    tuning::{
-        job::{CEILING_HZ, Job},
-        landing_simulation::report::landings,
-        suite::Suites,
-    },
-    validate::PREDICTABLE,
+    job::{CEILING_HZ, Job},
+    landing_simulation::report::landings,
+    suite::Suites,
 };
+use validation::PREDICTABLE;
 
 /// A structure's case without a record that matters, at an accuracy, within a cap.
 fn tuned(structure: Structure, accuracy: f64, cap: Option<f64>) -> Job {

@@ -11,6 +11,7 @@ use crate::{
     tables::{Instants, csv_row},
     texts::RunTexts,
 };
+use cases::{Asked, ElasticCase};
 use decks::{ACCURACY, CornerProgram, DeckFormat, ElasticDeck, ExportError, samples_to};
 use dynamics::spring::{Chain, Springs};
 use figures::Figure;
@@ -18,6 +19,11 @@ use frames::{
     answer::{ElasticAnswer, ElasticHistories},
     assembled::{Assembled, Sway},
     fem::ElasticHistory,
+};
+use parameters::{
+    RecordRow,
+    elastic::{ElasticAssessment, ElasticParameters, OnRecord},
+    program::{CornerUnits, ProgramRow},
 };
 use report::{
     Run,
@@ -29,15 +35,7 @@ use report::{
     program::with_verdict,
     summary,
 };
-use springs::{
-    case::{Asked, ElasticCase},
-    parameters::{
-        RecordRow,
-        elastic::{ElasticAssessment, ElasticParameters, OnRecord},
-        program::{CornerUnits, ProgramRow},
-    },
-    tuning::elastic::{ElasticTuned, program::ElasticProgramSprings},
-};
+use springs::elastic::{ElasticTuned, program::ElasticProgramSprings};
 use strong_motion::Record;
 
 mod bearing;

@@ -1,8 +1,8 @@
 //! The decks of a run.
 
 use decks::{DeckFormat, ExportError, SteppedDeck};
+use parameters::program::ProgramRow;
 use report::screen::{ETABS_SHEET, EVEN_DECK, SHEET};
-use springs::parameters::program::ProgramRow;
 use strong_motion::Record;
 
 use crate::{FolderError, texts::RunTexts};

@@ -7,13 +7,15 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use crate::FolderError;
+use cases::Case;
 use figures::{EventMark, Figure, FigureError, Sheet, brief, short};
+use parameters::answers::ModelComparison;
 use report::stiffness_tradeoff::TradeoffPoint;
 use rocking::{
     housner,
     structure::{Kind as BodyKind, Structure},
 };
-use springs::{answers::ModelComparison, case::Case, tuning::job::Job};
+use springs::job::Job;
 
 /// Every figure that a run may leave, and its files.
 macro_rules! figures {

@@ -4,6 +4,10 @@ use std::path::Path;
 
 use decks::{DeckFormat, Expected, ExportError, with_inertia};
 use figures::Figure;
+use parameters::{
+    Parameters, RecordRow,
+    predictability::{simulate, width_sensitivity},
+};
 use report::{
     Run,
     markdown::markdown,
@@ -11,10 +15,6 @@ use report::{
     predictable_to,
     rigid::RigidRun,
     summary,
-};
-use springs::{
-    parameters::{Parameters, RecordRow},
-    predictability::{simulate, width_sensitivity},
 };
 
 use crate::{

@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use dynamics::fem::{Demands, History, QUANTITIES};
+use parameters::answers::ModelComparison;
 use rocking::structure::{Body, Kind};
-use springs::answers::ModelComparison;
 
 /// `history.csv`: the motions at the record's samples, 12 significant digits; with members three
 /// columns more.
@@ -117,8 +117,8 @@ pub fn members_csv(
 mod tests {
     use super::*;
     use dynamics::spring::{Design, Springs};
+    use parameters::answers::both;
     use rocking::{members::Members, scalar::GRAVITY, structure::Structure};
-    use springs::answers::both;
     use strong_motion::Record;
 
     #[test]

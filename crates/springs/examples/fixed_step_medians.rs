@@ -1,5 +1,5 @@
 //! The error of springs for fixed time steps over p dt, of the recipe (`fixed_steps::recipe`) and
-//! of those of a run (`tuning::fixed_steps`), on motions made for a body: median, 90 % quantile,
+//! of those of a run (`springs::fixed_steps`), on motions made for a body: median, 90 % quantile,
 //! histories that the program gave up, for three bodies, four integrators, three steps; the same
 //! with substeps down to a sixteenth of a step.
 //!
@@ -11,7 +11,7 @@ use std::env;
 
 use fixed_steps::{FixedStepDesign, FixedStepSprings, Integrator, measured::WellConditioned};
 use rocking::structure::{Structure, StructureError};
-use springs::tuning::fixed_steps::design;
+use springs::fixed_steps::design;
 
 /// Motions of a suite that are looked at for one that is well-conditioned.
 const LOOKED_AT: usize = 8;

@@ -9,7 +9,7 @@ use std::env;
 
 use fixed_steps::{FixedStepDesign, FixedStepSprings, Integrator, measured::WellConditioned};
 use rocking::structure::Structure;
-use springs::tuning::fixed_steps::design;
+use springs::fixed_steps::design;
 
 const STEP: f64 = 1e-3;
 

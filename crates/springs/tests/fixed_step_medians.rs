@@ -3,7 +3,7 @@
 
 use fixed_steps::{FixedStepDesign, FixedStepSprings, Integrator, measured::WellConditioned};
 use rocking::{statistics::quantile, structure::Structure};
-use springs::tuning::fixed_steps::design;
+use springs::fixed_steps::design;
 
 /// Median over p dt, at most.
 const MOST: f64 = 22.0;

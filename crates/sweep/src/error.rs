@@ -2,8 +2,9 @@
 
 use thiserror::Error;
 
+use cases::CaseError;
 use rocking::synthetic::LikeError;
-use springs::{case::CaseError, tuning::job::JobError};
+use springs::job::JobError;
 use strong_motion::RecordError;
 
 /// What is wrong with a sweep, where, and what to do.

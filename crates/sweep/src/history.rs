@@ -19,8 +19,8 @@ use rocking::{
     overturning::samples_until,
     structure::Body,
 };
-use springs::validate::{ComparisonObserver, push};
 use strong_motion::Record;
+use validation::{ComparisonObserver, push};
 
 /// Cells that are taken at a time: of Housner's as many as go in lock-step; of finite elements
 /// enough to fill the lanes again where a history ends early.

@@ -14,10 +14,10 @@ use super::{
     motion::{MotionSource, SweepMotion},
     spec::{SweepKind, SweepModel, SweepSource},
 };
+use cases::{ACCURACY, LONGEST_S, MAX_HZ};
 pub use levels::Measure;
 use levels::levels;
 use rocking::scalar::GRAVITY;
-use springs::case::{ACCURACY, LONGEST_S, MAX_HZ};
 use strong_motion::{Notice, ReadOptions, fnv1a};
 pub use subjects::Subject;
 use subjects::subjects;

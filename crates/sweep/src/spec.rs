@@ -50,8 +50,8 @@ use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
 use super::{SweepError, pulse, values::Values};
+use cases::{StructureSection, parse_error};
 use rocking::structure;
-use springs::case::{StructureSection, parse_error};
 use strong_motion::{Units, VerticalFrom};
 
 /// What a sweep asks.

@@ -9,12 +9,10 @@ use std::{io::ErrorKind, path::Path};
 use serde::{Deserialize, Serialize};
 
 use super::{SweepError, manifest, plan::Plan};
+use cases::{Case, Tuning};
 use dynamics::spring::{Chain, Design, Springs};
 use files::{input, message::one_line};
-use springs::{
-    case::{Case, Tuning},
-    tuning::job::Job,
-};
+use springs::job::Job;
 use strong_motion::{Record, excitation::Excitation, fnv1a};
 
 /// A chain without units; its Omega_n over p.

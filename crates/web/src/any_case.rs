@@ -3,11 +3,9 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::WebError;
+use cases::{Case, CaseError, ElasticCase, Objective};
 use rocking::structure::Body;
-use springs::{
-    case::{Case, CaseError, ElasticCase, Objective},
-    tuning::landing_simulation::differs_from_housner,
-};
+use springs::landing_simulation::differs_from_housner;
 use strong_motion::{Notice, excitation::Excitation};
 
 /// How the case file is called, in messages and by whoever saves it.

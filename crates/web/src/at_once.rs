@@ -12,19 +12,17 @@ use crate::{
     said::{Does, PeaksFound, Said, Working, does},
     series::{HistorySeries, tops},
 };
+use cases::{Case, ElasticCase};
 use dynamics::{fem::HistoryOutcome, spring::Chain};
 use frames::{
     assembled::Assembled,
     fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
 };
 use report::{Taken, Unit, filed, rigid::at_once::RunAtOnce};
+use results::{Finding, Peaks};
 use springs::{
-    case::{Case, ElasticCase},
-    results::{Finding, Peaks},
-    tuning::{
-        at_once::springs_at_once,
-        elastic::{at_once::springs_of_structure, design::CornerSprings},
-    },
+    at_once::springs_at_once,
+    elastic::{at_once::springs_of_structure, design::CornerSprings},
 };
 use strong_motion::Record;
 
@@ -151,7 +149,7 @@ fn what_it_does(
         HistoryOutcome::Stopped { time }
         | HistoryOutcome::WorkBound { time }
         | HistoryOutcome::Unstable { time } => {
-            Finding::NoAnswer { model: springs::results::FindingModel::Springs, time_s: time }
+            Finding::NoAnswer { model: results::FindingModel::Springs, time_s: time }
         }
     }
 }

@@ -1,14 +1,12 @@
 //! What is wrong, in the program's own line.
 
+use cases::CaseError;
 use fixed_steps::{integrator::IntegratorError, recipe::FixedStepSpringsError};
 use frames::{answer::AnswerError, assembled::AssemblyError};
 use run_folder::FolderError;
 use springs::{
-    case::CaseError,
-    tuning::{
-        elastic::{ElasticTuneError, referred::ReferredError},
-        job::JobError,
-    },
+    elastic::{ElasticTuneError, referred::ReferredError},
+    job::JobError,
 };
 use strong_motion::RecordError;
 use thiserror::Error;

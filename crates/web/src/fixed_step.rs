@@ -12,7 +12,7 @@ use rocking::{
     motion::{Motion, nrmse},
     structure::Body,
 };
-use springs::tuning::fixed_steps::design;
+use springs::fixed_steps::design;
 
 /// Springs, what they err, and the history that the program would find.
 #[derive(Serialize)]

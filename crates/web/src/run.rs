@@ -13,6 +13,7 @@ use crate::{
     said::{Said, Working},
     series::HistorySeries,
 };
+use cases::{Case, ElasticCase};
 use dynamics::effort::{Effort, StopSignal};
 use fixed_steps::FixedStepProgram;
 use frames::{answer::ElasticAnswer, assembled::Assembled};
@@ -21,18 +22,15 @@ use report::{
     rigid::RigidRun,
     screen::{Written, screen},
 };
+use results::DesignForces;
 use run_folder::{elastic::ElasticRun, rigid, texts::RunTexts};
 use springs::{
-    case::{Case, ElasticCase},
-    results::DesignForces,
-    tuning::{
-        elastic::{
-            ElasticAsked, MOST_WORK,
-            referred::{NEAR, referred},
-            tune_within,
-        },
-        job::Job,
+    elastic::{
+        ElasticAsked, MOST_WORK,
+        referred::{NEAR, referred},
+        tune_within,
     },
+    job::Job,
 };
 
 /// The folder of results, as the program calls it unless told otherwise.

@@ -5,8 +5,8 @@ use serde::Serialize;
 use crate::series::HistorySeries;
 use frames::assembled::Assembled;
 use report::{Run, Taken, Unit};
+use results::{FiledFinding, Finding, Peaks, Weight};
 use rocking::structure::Body;
-use springs::results::{FiledFinding, Finding, Peaks, Weight};
 
 /// The numbers behind the answer.
 #[derive(Serialize)]

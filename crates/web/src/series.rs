@@ -8,11 +8,11 @@ use frames::{
     assembled::{Assembled, Sway},
     fem::ElasticHistory,
 };
+use parameters::answers::ModelComparison;
 use rocking::{
     motion::Motion,
     structure::{Body, Kind},
 };
-use springs::answers::ModelComparison;
 use strong_motion::Record;
 
 /// A base of the structure, and what stands on it.

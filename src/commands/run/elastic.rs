@@ -6,21 +6,19 @@ use crate::commands::{
     bounds::ended,
     progress::{self, Progress},
 };
+use cases::ElasticCase;
 use fixed_steps::FixedStepProgram;
 use frames::{answer::ElasticAnswer, assembled::Assembled};
+use results::NotDone;
 use run_folder::{
     elastic::{ElasticRun, springs_alone as alone},
     place::check_folder,
     rigid::{Output, files},
 };
-use springs::{
-    case::ElasticCase,
-    results::NotDone,
-    tuning::elastic::{
-        ElasticAsked, MOST_WORK,
-        referred::{NEAR, ReferredError, referred},
-        tune_within,
-    },
+use springs::elastic::{
+    ElasticAsked, MOST_WORK,
+    referred::{NEAR, ReferredError, referred},
+    tune_within,
 };
 
 /// The whole job.

@@ -3,8 +3,8 @@
 use clap::Args;
 
 use crate::commands::CommandError;
+use cases::program::ProgramSection;
 use fixed_steps::FixedStepProgram;
-use springs::case::program::ProgramSection;
 
 /// The program that springs are wanted for besides.
 #[derive(Clone, Debug, Default, Args)]

@@ -6,7 +6,7 @@ use comfy_table::{Table, presets};
 
 use super::CommandError;
 use rocking::motion::{percent, shown};
-use springs::validate::{
+use validation::{
     Confusion, GeometricMean, PREDICTABLE, Quantiles, RecordOutcome, Row, Suite, Summary,
     Validation,
 };

@@ -12,6 +12,7 @@ use frames::{
     fem::ElasticHistory,
     reference::{MOST_WORK, TRIED},
 };
+use parameters::{elastic::ElasticParameters, predictability::standing_share};
 use report::elastic::title as structure_title;
 use run_folder::{
     elastic::{deck, words},
@@ -19,7 +20,6 @@ use run_folder::{
     place::{check_folder, write_file},
     tables::csv_row,
 };
-use springs::{parameters::elastic::ElasticParameters, predictability::standing_share};
 use strong_motion::Record;
 
 /// Largest NRMSE of rotation between OpenSees and our own history, while a change of the motion

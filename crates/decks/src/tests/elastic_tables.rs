@@ -4,11 +4,11 @@ use super::{Tables, number, read_s2k, refers_to_what_it_defines};
 use crate::{CornerProgram, DeckFormat, ElasticDeck, ExportError, Stepping};
 use dynamics::spring::{Chain, Springs};
 use frames::{assembled::Assembled, structure::ElasticStructure};
+use parameters::program::{CornerUnits, ProgramRow};
 use rocking::{
     members::{Damper, Members},
     scalar::GRAVITY,
 };
-use springs::parameters::program::{CornerUnits, ProgramRow};
 use strong_motion::Record;
 
 const PIER: &str = "kind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\n\
@@ -205,7 +205,7 @@ fn substeps_at_touches_have_springs_of_their_own_and_no_tables() {
     assert_eq!(touches.row.units.springs.len(), row.units.springs.len());
     for (fine, coarse) in touches.row.units.chains().iter().zip(row.units.chains()) {
         assert!(close(fine.vertical.k2 / fine.vertical.k1, 0.25));
-        // k_e goes with one over the step (`springs::tuning::elastic::program`)
+        // k_e goes with one over the step (`springs::elastic::program`)
         let other = CornerProgram::new(&model, &program_row(0.002), Stepping::Touches).unwrap();
         let other = other.row.units.chains()[0];
         assert!(close(fine.vertical.k1, 2.0 * other.vertical.k1));

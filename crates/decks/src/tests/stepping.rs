@@ -3,10 +3,8 @@
 use super::*;
 use dynamics::effort::Effort;
 use fixed_steps::{FixedStepProgram, Integrator, ProgramName};
-use springs::{
-    parameters::program::ProgramRow,
-    tuning::{fixed_steps::ProgramSprings, suite::Suites},
-};
+use parameters::program::ProgramRow;
+use springs::{fixed_steps::ProgramSprings, suite::Suites};
 
 /// A block with springs for a program.
 fn for_program(name: ProgramName, step: f64) -> Parameters {

@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use super::*;
 use crate::ACCURACY;
 use dynamics::spring::{Design, Springs};
+use parameters::predictability::width_sensitivity;
 use rocking::structure::Structure;
-use springs::predictability::width_sensitivity;
 
 fn parameters() -> Parameters {
     let chain = Design::from_kc(0.5, 0.2, 0.92, 40.0);

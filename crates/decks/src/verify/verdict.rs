@@ -1,10 +1,10 @@
 //! Whether OpenSees is within its limit of our own history.
 
+use parameters::predictability::{Foretold, ForetoldEnd, STANDING, standing_error};
 use rocking::{
     motion::{Motion, peak},
     structure::Body,
 };
-use springs::predictability::{Foretold, ForetoldEnd, STANDING, standing_error};
 
 /// Largest NRMSE of u between OpenSees and our own history.
 pub const LIMIT: f64 = 0.001;

@@ -1,6 +1,6 @@
 //! Design forces of an elastic structure, as parameters.json has them.
 
-use ::springs::results::{DesignForce, DesignForces};
+use ::results::{DesignForce, DesignForces};
 use frames::{
     design_forces::{ForceKind, ForcesTogether, StructureForces},
     structure::ElasticStructure,

@@ -2,7 +2,7 @@
 
 use super::{ElasticParts, top_height};
 use crate::predictable_to;
-use ::springs::results::{FiledFinding, PartsOfTop, PeakPair, PeakTimes, Peaks};
+use ::results::{FiledFinding, PartsOfTop, PeakPair, PeakTimes, Peaks};
 use frames::{answer::ElasticHistories, assembled::Sway, frame::Frame};
 use rocking::{motion::TimedPeak, overturning::samples_until};
 

@@ -5,15 +5,16 @@ use super::super::{
     accuracy::THIS_RECORD, doubts, filed,
 };
 use super::title;
+use cases::{ElasticCase, Yardstick};
 use files::message::{quantity, significant};
 use frames::peaks::StructurePeakErrors;
-use rocking::members::Tendon;
-use springs::{
-    case::{ElasticCase, Yardstick},
-    parameters::elastic::{CornerRow, ElasticAssessment, ElasticParameters, OnRecord, UnitRow},
-    results::Finding,
-    tuning::elastic::suite::ElasticErrors,
+use parameters::{
+    corner::{CornerRow, UnitRow},
+    elastic::{ElasticAssessment, ElasticParameters, OnRecord},
 };
+use results::Finding;
+use rocking::members::Tendon;
+use springs::elastic::suite::ElasticErrors;
 
 pub(super) fn springs_findings(parameters: &ElasticParameters) -> Option<Finding> {
     let a = parameters.assessment.as_ref().filter(|a| !a.reached)?;

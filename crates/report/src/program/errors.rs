@@ -2,7 +2,7 @@
 
 use crate::Table;
 use files::message::{percent, significant};
-use springs::parameters::program::{ProgramErrors, ProgramRow};
+use parameters::program::{ProgramErrors, ProgramRow};
 
 /// How much is told of errors.
 #[derive(Clone, Copy, PartialEq)]

@@ -3,13 +3,13 @@
 
 use super::{alone, peaks, taken};
 use crate::{Run, doubts, filed, reference, reference::HousnerReport};
+use cases::Case;
 use dynamics::spring::{Design, Springs};
-use springs::{
+use parameters::{
+    Parameters,
     answers::{ModelComparison, both},
-    case::Case,
-    parameters::Parameters,
-    results::Finding,
 };
+use results::Finding;
 use strong_motion::{Record, RecordError};
 
 /// Both models' answers on given springs, and what is said of them.

@@ -1,11 +1,9 @@
 //! What the springs of a rigid body cannot do.
 
-use springs::{
-    case::Yardstick,
-    parameters::Parameters,
-    results::Finding,
-    tuning::landing_simulation::{ATTAINABLE, LEANS, differs_from_housner},
-};
+use cases::Yardstick;
+use parameters::Parameters;
+use results::Finding;
+use springs::landing_simulation::{ATTAINABLE, LEANS, differs_from_housner};
 
 /// Error of restitution that is worth a warning.
 const RESTITUTION_MISSED: f64 = 0.005;

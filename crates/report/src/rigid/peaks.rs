@@ -1,13 +1,11 @@
 //! Largest displacements of a rigid body, as an engineer quotes them.
 
 use dynamics::{compare::Match, fem::History};
+use parameters::answers::ModelComparison;
+use results::{PeakPair, Peaks};
 use rocking::{
     overturning::samples_until,
     structure::{Body, Kind},
-};
-use springs::{
-    answers::ModelComparison,
-    results::{PeakPair, Peaks},
 };
 
 /// Largest displacements of both models, up to an overturning; `dt` is that of the record (s).
@@ -58,8 +56,8 @@ pub(super) fn peaks_to(
 mod tests {
     use super::*;
     use dynamics::spring::{Design, Springs};
+    use parameters::answers::both;
     use rocking::{members::Members, structure::Structure};
-    use springs::answers::both;
     use strong_motion::Record;
 
     /// The paper's frame is moved most by El Centro after 10 s, and by less in the first 5 s.

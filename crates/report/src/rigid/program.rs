@@ -1,20 +1,18 @@
 //! What is to be said of springs for a program with fixed time steps.
 
 use crate::{displacements::LEAST_DRIFT, program::lost};
+use cases::{Case, Yardstick};
 use fixed_steps::{
     FixedStepHistory, FixedStepOutcome, FixedStepProgram, GaveUp, expected::step_for,
 };
-use rocking::motion::Motion;
-use springs::{
+use parameters::{
+    Parameters,
     answers::ModelComparison,
-    case::{Case, Yardstick},
-    parameters::{
-        Parameters,
-        program::{ProgramOnRecord, USELESS, round_step},
-    },
-    results::{Finding, Peaks},
-    tuning::{fixed_steps::LONGEST, landing_simulation::differs_from_housner},
+    program::{ProgramOnRecord, USELESS, round_step},
 };
+use results::{Finding, Peaks};
+use rocking::motion::Motion;
+use springs::{fixed_steps::LONGEST, landing_simulation::differs_from_housner};
 
 /// Findings; those of a program that nobody asked for are notes.
 pub(super) fn findings(case: &Case, parameters: &Parameters) -> Vec<Finding> {

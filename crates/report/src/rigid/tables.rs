@@ -9,11 +9,9 @@ use dynamics::{
     spring::ChainRow,
 };
 use files::message::{percent, quantity, significant};
+use parameters::{PaperProcedure, Parameters};
 use rocking::{motion::shown, structure::Kind};
-use springs::{
-    parameters::{PaperProcedure, Parameters},
-    tuning::landing_simulation::report::LandingRow,
-};
+use springs::landing_simulation::report::LandingRow;
 
 /// Springs and their match under a heading.
 struct SpringsColumn<'a> {

@@ -7,7 +7,7 @@ use crate::{
 };
 use files::message::{percent, quantity, significant};
 use frames::structure::ElasticStructure;
-use springs::results::{DesignForce, DesignForces, ForceName};
+use results::{DesignForce, DesignForces, ForceName};
 
 /// What is told of a force besides when it is largest, as far as there is room.
 #[derive(Clone, Copy, PartialEq)]

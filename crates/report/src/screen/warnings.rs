@@ -5,7 +5,7 @@ use super::{
     lines::{at_most, wrap},
 };
 use crate::{Run, sentence};
-use springs::results::{FiledFinding, Finding, Weight};
+use results::{FiledFinding, Finding, Weight};
 
 /// What a warning begins with.
 const WARNING: &str = "warning   ";

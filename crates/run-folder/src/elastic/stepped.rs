@@ -3,8 +3,8 @@
 use super::{ElasticRun, deck_of};
 use decks::{ACCURACY, CornerProgram, DeckFormat, ExportError, SteppedDeck};
 use frames::assembled::Assembled;
+use parameters::program::{CornerUnits, ProgramOnRecord, ProgramRow};
 use report::predictable_to;
-use springs::parameters::program::{CornerUnits, ProgramOnRecord, ProgramRow};
 use strong_motion::Record;
 
 /// Coordinates at every sample as a program with fixed time steps finds them, and when it gives up

@@ -1,12 +1,10 @@
 //! The page of runs that go each their own way: what it says, its size, and that it asks for
 //! nothing from elsewhere.
 
+use cases::Case;
 use report::screen::{Written, screen};
-use springs::{
-    case::Case,
-    results::{Finding, ProgramAdvice, Weight},
-    tuning::job::Job,
-};
+use results::{Finding, ProgramAdvice, Weight};
+use springs::job::Job;
 use strong_motion::Record;
 use strong_motion::excitation::Excitation;
 

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use cases::Asked;
 use dynamics::{
     effort::Effort,
     spring::{Chain, Springs},
@@ -14,14 +15,11 @@ use frames::{
     frame::Base,
     structure::{ElasticStructure, PierSpec},
 };
+use results::MOST_CHANGE;
 use rocking::scalar::GRAVITY;
 use rocking::synthetic;
-use springs::{
-    case::Asked,
-    results::MOST_CHANGE,
-    tuning::elastic::{
-        ElasticAsked, design::springs, landing_speed, stand, trial::ElasticTrial, tune_within,
-    },
+use springs::elastic::{
+    ElasticAsked, design::springs, landing_speed, stand, trial::ElasticTrial, tune_within,
 };
 use strong_motion::Record;
 

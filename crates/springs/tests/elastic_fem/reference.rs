@@ -1,5 +1,6 @@
 //! Against the nonsmooth reference, event-driven with plastic landings, of the same frame.
 
+use cases::{Asked, Yardstick};
 use dynamics::{effort::Effort, fem::Control};
 use frames::{
     Mechanics,
@@ -15,16 +16,13 @@ use frames::{
 };
 use nalgebra::DVector;
 use rocking::scalar::GRAVITY;
-use springs::{
-    case::{Asked, Yardstick},
-    tuning::elastic::{
-        ElasticAsked, ElasticTuneError, ElasticTuned,
-        design::{springs as springs_of_design, with_k},
-        landing_speed, stand,
-        suite::ElasticSuite,
-        trial::ElasticTrial,
-        tune_within,
-    },
+use springs::elastic::{
+    ElasticAsked, ElasticTuneError, ElasticTuned,
+    design::{springs as springs_of_design, with_k},
+    landing_speed, stand,
+    suite::ElasticSuite,
+    trial::ElasticTrial,
+    tune_within,
 };
 use strong_motion::Record;
 

@@ -1,0 +1,208 @@
+//! Both models' answers to one record, or to many: Housner's rigid body and the finite elements on
+//! ground springs, and what they say together.
+
+use dynamics::compare::Match;
+use std::convert::Infallible;
+
+use crate::Parameters;
+use dynamics::{
+    fem::{self, Demands, History, Landing},
+    spring::{Chain, Springs},
+};
+use rocking::{
+    conditioning::Conditioning,
+    housner::{self, Rocking},
+    members::Members,
+    motion::{Motion, TimedPeak},
+    overturning::samples_until,
+    structure::Body,
+};
+use strong_motion::Record;
+use validation::{Validation, Validator, verdict::Verdict};
+
+/// Both models' answers to one record.
+pub struct ModelComparison {
+    /// Housner's history.
+    pub rocking: Rocking<f64>,
+    /// Housner's history without the vertical component, if the record has one.
+    pub level: Option<Rocking<f64>>,
+    /// Its motion of the centre of mass.
+    pub housner: Motion,
+    /// The finite element history of the rigid body.
+    pub fem: fem::History,
+    /// How it matches Housner's.
+    pub matched: Match,
+    /// Forces in the rigid body's history.
+    pub demands: fem::Demands,
+    /// The same with members, if there are any.
+    pub with: Option<MemberHistory>,
+}
+
+/// Run both models over a record; with members, the finite elements once more with them.
+pub fn both(
+    body: &Body<f64>,
+    restitution: f64,
+    springs: &Springs<Chain>,
+    members: &Members,
+    record: &Record,
+) -> ModelComparison {
+    let level = housner::RockingOptions { restitution: Some(restitution), ..Default::default() };
+    let options = housner::RockingOptions { vertical: record.vertical_accel(), ..level.clone() };
+    let rocking = housner::solve(body, record.dt, &record.accel, &options);
+    let level =
+        record.vertical.as_ref().map(|_| housner::solve(body, record.dt, &record.accel, &level));
+    let motion = rocking.motion(body);
+    let answer = |members: &Members| {
+        with_members(body, restitution, springs, members, record, (&rocking, &motion))
+    };
+    let MemberHistory { history: fem, demands, matched, .. } = answer(&Members::default());
+    let with = (!members.is_none()).then(|| answer(members));
+    ModelComparison { rocking, level, housner: motion, fem, matched, demands, with }
+}
+
+/// The finite elements with members through a record, beside Housner's history and its motion.
+pub fn with_members(
+    body: &Body<f64>,
+    restitution: f64,
+    springs: &Springs<Chain>,
+    members: &Members,
+    record: &Record,
+    (rocking, motion): (&Rocking<f64>, &Motion),
+) -> MemberHistory {
+    let case = fem::Analysis {
+        body: *body,
+        springs: *springs,
+        start: fem::Start::Settled,
+        dt: record.dt,
+        accel: &record.accel,
+        vertical: record.up(),
+        scale: 1.0,
+        control: fem::Control::default(),
+    };
+    let (history, mut demands) = case.simulate_with(members);
+    let matched = Match::new(body, record.dt, (motion, &rocking.impacts), &history, restitution);
+    count(&mut demands, body, record.dt, &history.landings, matched.overturned_fem_s);
+    MemberHistory { members: *members, history, demands, matched }
+}
+
+/// Both models on the springs and members of a parameter file, and what they say together: peaks,
+/// overturning, match.
+pub fn compare(parameters: &Parameters, record: &Record) -> (ModelComparison, Verdict) {
+    let (body, e) = (parameters.structure.body(), parameters.restitution());
+    let both = both(&body, e, &parameters.chains(), &parameters.members(), record);
+    let vertical = record.vertical_accel();
+    let options = housner::RockingOptions { restitution: Some(e), vertical, ..Default::default() };
+    let verdict = both.verdict(
+        &body,
+        record.dt,
+        &Conditioning::new(&body, record.dt, &record.accel, &options),
+    );
+    (both, verdict)
+}
+
+/// The springs of a parameter file over many records, each as long as it is, on all cores.
+pub fn validate(parameters: &Parameters, records: &[Record]) -> Validation {
+    let judge = Validator {
+        body: parameters.structure.body(),
+        restitution: parameters.restitution(),
+        springs: parameters.chains(),
+        duration_s: None,
+        control: fem::Control::default(),
+    };
+    let Ok(validation) =
+        judge.judge_all(records.len(), |i| Ok::<_, Infallible>(records[i].clone()), |_| ());
+    validation
+}
+
+impl ModelComparison {
+    /// What the histories say together; `dt` in s.
+    pub fn verdict(&self, body: &Body<f64>, dt: f64, conditioning: &Conditioning) -> Verdict {
+        let verdict =
+            Verdict::new(body, dt, (&self.rocking, &self.fem), &self.matched, conditioning);
+        match &self.level {
+            Some(level) => verdict.beside(body, dt, level),
+            None => verdict,
+        }
+    }
+}
+
+/// A history with members, and what it says.
+pub struct MemberHistory {
+    /// What the body has besides.
+    pub members: Members,
+    /// The finite element history with them.
+    pub history: History,
+    /// Forces in it.
+    pub demands: Demands,
+    /// How it matches Housner's.
+    pub matched: Match,
+}
+
+/// The largest forces of a history, those between its landings apart, up to an overturning.
+fn count(
+    demands: &mut Demands,
+    body: &Body<f64>,
+    dt: f64,
+    landings: &[Landing],
+    overturned: Option<f64>,
+) {
+    peaks_until(demands, dt, overturned);
+    demands.separate(body, dt, landings, samples_until(overturned, dt));
+}
+
+/// Count the largest forces up to an overturning only, if there is one: those of the fall and of
+/// the body on the ground are no demand of rocking. Times are then those of the samples.
+fn peaks_until(demands: &mut Demands, dt: f64, overturned: Option<f64>) {
+    let Some(_) = overturned else { return };
+    demands.peaks = Default::default();
+    for (i, row) in demands.rows.iter().enumerate().take(samples_until(overturned, dt)) {
+        for (peak, &value) in demands.peaks.iter_mut().zip(row) {
+            if value.abs() > peak.value.abs() {
+                *peak = TimedPeak { value, time: i as f64 * dt };
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use dynamics::{fem::QUANTITIES, spring::Design};
+    use rocking::structure::Structure;
+
+    /// A pier that falls from 0.3 alpha: its foot carries about its weight while it turns about it,
+    /// and far more in a landing.
+    #[test]
+    fn forces_between_landings_are_about_the_weight_whatever_the_springs() {
+        let structure = Structure::a_frame(9.0, 2.1, 120e3).unwrap();
+        let record =
+            Record::new("pulse", 0.01, (0..1000).map(|i| if i < 25 { 4.0 } else { 0.0 }).collect())
+                .unwrap();
+        for hz in [320.0, 1280.0] {
+            let design = Design::from_kc(0.3, 0.1, 0.75, hz);
+            let springs =
+                Springs { vertical: design, horizontal: design }.chains(structure.mass_kg);
+            let both = both(&structure.body(), 0.97, &springs, &Members::default(), &record);
+            assert!(both.fem.impacts() > 3);
+            let weight = structure.mass_kg * rocking::scalar::GRAVITY;
+            // the leg carries m g R cos(alpha - theta) less the centrifugal force, in compression
+            for k in [1, 4] {
+                let [all, between] = [both.demands.peaks, both.demands.between]
+                    .map(|peaks| -peaks[k].value / weight);
+                assert!((0.95..1.3).contains(&between) && all > 10.0, "{hz} Hz: {between}, {all}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_largest_forces_are_those_before_the_fall() {
+        let mut demands = Demands::default();
+        demands.rows = [1.0, -3.0, 2.0, 50.0].map(|x| [x; QUANTITIES.len()]).to_vec();
+        demands.peaks = [TimedPeak { value: 50.0, time: 0.033 }; QUANTITIES.len()];
+        let whole = demands.clone();
+        peaks_until(&mut demands, 0.01, None);
+        assert_eq!(demands, whole);
+        peaks_until(&mut demands, 0.01, Some(0.025));
+        assert_eq!(demands.peaks[0], TimedPeak { value: -3.0, time: 0.01 });
+    }
+}

@@ -1,0 +1,369 @@
+//! Springs for a program with fixed time steps, as parameters.json holds them.
+
+use serde::{Deserialize, Serialize};
+
+use super::corner::CornerRow;
+use dynamics::spring::{Chain, ChainRow, Springs};
+use fixed_steps::{
+    FixedStepProgram, Integrator, ProgramName, expected::FLOOR, measured::ErrorsOverMotions,
+};
+use results::{NotToBeUsed, ProgramAdvice, ProgramFault};
+use rocking::structure::Structure;
+use springs::{
+    elastic::program::ElasticProgramSprings,
+    fixed_steps::{LONGEST, ProgramSprings},
+};
+
+/// Errors of histories of a program beside Housner's, over motions; `null` if so many were lost.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ProgramErrors {
+    /// Motions.
+    pub histories: usize,
+    /// Of these, how many the program does not get through, or topples the body in.
+    pub lost: usize,
+    /// NRMSE of u, or of rotations of an elastic structure: median, and what 90 % are below.
+    pub history: [Option<f64>; 2],
+    /// Error of the largest u, relative to it; of an elastic structure that of the displacement,
+    /// drift or uplift with the largest: the same.
+    pub peak: [Option<f64>; 2],
+}
+
+impl From<&ErrorsOverMotions> for ProgramErrors {
+    fn from(errors: &ErrorsOverMotions) -> Self {
+        let finite = |x: f64| x.is_finite().then_some(x);
+        Self {
+            histories: errors.count(),
+            lost: errors.lost(),
+            history: [0.5, 0.9].map(|q| finite(errors.quantile(q))),
+            peak: [0.5, 0.9].map(|q| finite(errors.peak_quantile(q))),
+        }
+    }
+}
+
+/// What springs err in a program.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ProgramExpected {
+    /// Median NRMSE by the step, whatever the springs: 13 p dt.
+    pub floor: f64,
+    /// By the sway before uplift; of a rigid body.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stance: Option<f64>,
+    /// By what a landing foot gives back; of a rigid body.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rebound: Option<f64>,
+    /// Measured in this run on synthetic motions; of an elastic structure on all that its springs
+    /// are judged on.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub synthetic: Option<ProgramErrors>,
+    /// Measured in this run on earthquake-like motions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub earthquakes: Option<ProgramErrors>,
+}
+
+/// When an iteration at a step's end has arrived.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ProgramTest {
+    /// Unbalance over the structure's weight below this.
+    UnbalanceOverWeight(f64),
+    /// Change of place below this (m).
+    IncrementM(f64),
+}
+
+/// Under each foot of a rigid body.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FootUnits {
+    /// The vertical unit.
+    pub vertical: ChainRow,
+    /// The horizontal unit.
+    pub horizontal: ChainRow,
+    /// I_cg that the model must have (kg m2).
+    pub rotational_inertia_kgm2: f64,
+}
+
+/// Under every corner of an elastic structure, from the left.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CornerUnits {
+    /// Each.
+    pub springs: Vec<CornerRow>,
+}
+
+/// Springs for a program with fixed time steps; units as in the springs above it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ProgramRow<U> {
+    /// Which: sap2000, etabs, opensees-even; none: any with this integrator.
+    #[serde(rename = "for", default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Whether a user asked for it: then its springs are judged on earthquake-like motions, too.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub asked: bool,
+    /// Its step (s).
+    pub step_s: f64,
+    /// Its integrator, as `--integrator` takes it.
+    pub integrator: String,
+    /// A step that fails is halved, down to one in so many.
+    pub substeps: usize,
+    /// Newton's iterations of a step, at most.
+    pub newton_iterations: usize,
+    /// When they have arrived.
+    pub converged: ProgramTest,
+    /// The units.
+    #[serde(flatten)]
+    pub units: U,
+    /// Whether they have twice the usual Omega_n, for their peaks on earthquake-like motions.
+    #[serde(default)]
+    pub stiffer_for_earthquakes: bool,
+    /// What they err.
+    pub expected: ProgramExpected,
+    /// On the run's record, by an emulation of the program's steps.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub on_record: Option<ProgramOnRecord>,
+}
+
+/// What an emulation of a program finds on a record.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ProgramOnRecord {
+    /// Its largest top displacement over that of the reference, less one; none where one of them
+    /// falls or ends before the record.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub top: Option<f64>,
+    /// When it gives up, if it does (s).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gives_up_s: Option<f64>,
+    /// Whether the motion can be predicted up to the reference's largest top displacement; none:
+    /// not looked at.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub predictable: Option<bool>,
+}
+
+/// Below this a displacement is rounding (m).
+const ROUNDING_M: f64 = 1e-12;
+
+impl ProgramOnRecord {
+    /// From the largest top displacements of a history and of the reference, where both stand.
+    pub fn of(tops: Option<[f64; 2]>, gives_up_s: Option<f64>) -> Self {
+        let top = tops.filter(|[_, reference]| *reference > ROUNDING_M && gives_up_s.is_none());
+        Self {
+            top: top.map(|[found, reference]| found / reference - 1.0),
+            gives_up_s,
+            predictable: None,
+        }
+    }
+}
+
+impl<U> ProgramRow<U> {
+    /// Of a program, the stiffest vertical k1 (N/m) and the mass (kg).
+    fn of(
+        program: &FixedStepProgram,
+        (k1, mass): (f64, f64),
+        units: U,
+        expected: ProgramExpected,
+    ) -> Self {
+        let tolerance = program.tolerance(k1, mass);
+        Self {
+            name: program.name.map(|name| name.key().into()),
+            asked: false,
+            step_s: program.step,
+            integrator: program.integrator.to_string(),
+            substeps: program.substeps,
+            newton_iterations: program.settings(k1, mass).iteration.newton,
+            converged: match program.tests_unbalance() {
+                true => ProgramTest::UnbalanceOverWeight(tolerance),
+                false => ProgramTest::IncrementM(tolerance),
+            },
+            units,
+            stiffer_for_earthquakes: false,
+            expected,
+            on_record: None,
+        }
+    }
+}
+
+impl From<&ProgramSprings> for ProgramRow<FootUnits> {
+    fn from(of: &ProgramSprings) -> Self {
+        let ProgramSprings { program, springs, expected, .. } = of;
+        let m1 = springs.body.mass;
+        let units = FootUnits {
+            vertical: ChainRow::new(&springs.units.vertical, m1),
+            horizontal: ChainRow::new(&springs.units.horizontal, m1),
+            rotational_inertia_kgm2: springs.rotational_inertia(),
+        };
+        let expected = ProgramExpected {
+            floor: expected.floor,
+            stance: Some(expected.stance),
+            rebound: Some(expected.rebound),
+            synthetic: of.synthetic.as_ref().map(ProgramErrors::from),
+            earthquakes: of.earthquakes.as_ref().map(ProgramErrors::from),
+        };
+        let row = Self::of(program, (springs.chains().vertical.k1, m1), units, expected);
+        Self { stiffer_for_earthquakes: of.stiffer, ..row }
+    }
+}
+
+impl ProgramRow<CornerUnits> {
+    /// Of an elastic structure whose corners stand at these places (m).
+    pub fn of_corners(
+        of: &ElasticProgramSprings,
+        mass: f64,
+        places: impl Iterator<Item = f64>,
+    ) -> Self {
+        let corners = &of.springs.corners;
+        let k1 = corners.iter().map(|corner| corner.vertical.k1).fold(0.0, f64::max);
+        let row = |(x_m, springs): (f64, &Springs<Chain>)| CornerRow {
+            x_m,
+            vertical: (&springs.vertical).into(),
+            horizontal: (&springs.horizontal).into(),
+        };
+        let units = CornerUnits { springs: places.zip(corners).map(row).collect() };
+        let expected = ProgramExpected {
+            floor: of.floor,
+            stance: None,
+            rebound: None,
+            synthetic: of.measured.as_ref().map(ProgramErrors::from),
+            earthquakes: None,
+        };
+        Self::of(&of.program, (k1, mass), units, expected)
+    }
+}
+
+/// Error of the largest displacement above which springs are of no use: in the median of motions,
+/// or on the run's record.
+pub const USELESS: f64 = 0.1;
+/// A difference of integrators' alpha that is rounding: users write hht:-0.333.
+const SAME_ALPHA: f64 = 1e-3;
+
+/// The largest step of 1, 2 or 5 times a power of ten that is no longer than this (s).
+pub fn round_step(step: f64) -> f64 {
+    let all = (1..=9).flat_map(|k| [5, 2, 1].map(|digit| format!("{digit}e-{k}")));
+    let all = all.filter_map(|text| text.parse::<f64>().ok());
+    all.into_iter().find(|x| *x <= step * (1.0 + 1e-9)).unwrap_or(step)
+}
+
+impl<U> ProgramRow<U> {
+    /// The program in words.
+    pub fn program(&self) -> String {
+        self.known().map_or_else(|| "a program".into(), |name| name.words().into())
+    }
+
+    /// Whether it is SAP2000 or ETABS.
+    pub fn is_csi(&self) -> bool {
+        matches!(self.known(), Some(ProgramName::Sap2000 | ProgramName::Etabs))
+    }
+
+    /// Whether it is ETABS, which reads no tables of SAP2000's.
+    pub fn is_etabs(&self) -> bool {
+        self.known() == Some(ProgramName::Etabs)
+    }
+
+    /// Whether it is OpenSees with steps of one size.
+    pub fn is_opensees_even(&self) -> bool {
+        matches!(self.known(), Some(ProgramName::OpenSees))
+    }
+
+    /// Whether the springs are of no use, why, and what to do.
+    pub fn not_to_be_used(&self) -> Option<NotToBeUsed> {
+        let fault = self.fault()?;
+        Some(NotToBeUsed { fault, advice: self.advice(fault) })
+    }
+
+    /// What is wrong with them, if they are of no use: on the set of motions where they err most,
+    /// or on the record where it can be predicted and errs more. Earthquake-like motions count in
+    /// steps that are too long by the law of the floor: in shorter ones the springs' sway errs
+    /// there, at any step.
+    fn fault(&self) -> Option<ProgramFault> {
+        let ProgramExpected { synthetic, earthquakes, floor, .. } = self.expected;
+        let earthquakes = earthquakes.filter(|_| synthetic.is_none() || floor > USELESS);
+        let suites = [(synthetic, false), (earthquakes, true)];
+        let suites = suites.into_iter().filter_map(|(errors, like)| Some((errors?, like)));
+        let median = |errors: &ProgramErrors| errors.peak[0].unwrap_or(f64::INFINITY);
+        let worst = suites.reduce(|a, b| if median(&b.0) > median(&a.0) { b } else { a });
+        let Some((errors, earthquakes)) = worst else {
+            return (floor > FLOOR * LONGEST).then_some(ProgramFault::TooLong { floor });
+        };
+        let (lost, motions) = (errors.lost, errors.histories);
+        let Some(median) = errors.peak[0] else {
+            return Some(ProgramFault::Lost { lost, motions });
+        };
+        let on = self.on_record.filter(|on| on.predictable != Some(false));
+        let top = on.and_then(|on| on.top).filter(|top| top.abs() > median.max(USELESS));
+        let on_record = top.map(|top| ProgramFault::OnRecord { top });
+        let on_motions = ProgramFault::Peaks { median, motions, earthquakes };
+        on_record.or((median > USELESS).then_some(on_motions))
+    }
+
+    /// What springs that are of use err on earthquake-like motions, if that is much.
+    pub fn errs_on_earthquakes(&self) -> Option<ProgramErrors> {
+        let errors = self.expected.earthquakes.filter(|_| self.not_to_be_used().is_none())?;
+        errors.peak[0].is_none_or(|median| median > USELESS).then_some(errors)
+    }
+
+    /// What to do about it. Errors are taken to grow as the step does, as the floor.
+    fn advice(&self, fault: ProgramFault) -> ProgramAdvice {
+        let by_law = self.step_s * USELESS / self.expected.floor;
+        let step = |error: f64| ProgramAdvice::Step {
+            step_s: round_step(by_law.min(self.step_s * USELESS / error)),
+        };
+        let too_long = self.step_s > by_law;
+        match fault {
+            ProgramFault::Lost { .. } if too_long => step(USELESS),
+            _ if !too_long && !self.has_usual_integrator() => ProgramAdvice::DefaultIntegrator,
+            ProgramFault::Lost { .. } => ProgramAdvice::AnotherStep,
+            ProgramFault::OnRecord { .. } if !too_long => ProgramAdvice::AnotherStep,
+            ProgramFault::Peaks { median: error, .. }
+            | ProgramFault::OnRecord { top: error }
+            | ProgramFault::TooLong { floor: error } => step(error.abs()),
+        }
+    }
+
+    /// Whether its integrator is the one that is taken unless another one is given.
+    fn has_usual_integrator(&self) -> bool {
+        let usual = self.known().unwrap_or(ProgramName::Sap2000).integrator();
+        match (self.integrator.parse(), usual) {
+            (Ok(Integrator::Hht { alpha }), Integrator::Hht { alpha: usual }) => {
+                (alpha - usual).abs() < SAME_ALPHA
+            }
+            (Ok(given), usual) => given == usual,
+            (Err(_), _) => false,
+        }
+    }
+
+    fn known(&self) -> Option<ProgramName> {
+        self.name.as_deref()?.parse().ok()
+    }
+
+    /// Its integrator in words: "HHT alpha -1/3".
+    pub fn integrator_words(&self) -> String {
+        match self.integrator.parse::<Integrator>() {
+            Ok(Integrator::Hht { alpha }) if (alpha + 1.0 / 3.0).abs() < 1e-9 => {
+                "HHT alpha -1/3".into()
+            }
+            Ok(Integrator::Hht { alpha }) => format!("HHT alpha {alpha}"),
+            Ok(Integrator::Newmark { gamma, beta }) => {
+                format!("Newmark gamma {gamma}, beta {beta}")
+            }
+            Ok(Integrator::GeneralizedAlpha { rho_inf }) => {
+                format!("generalized alpha, rho_inf {rho_inf}")
+            }
+            Ok(Integrator::Trbdf2) => "TRBDF2".into(),
+            Ok(Integrator::BackwardEuler) => "BackwardEuler".into(),
+            Err(_) => self.integrator.clone(),
+        }
+    }
+}
+
+impl CornerUnits {
+    /// The springs.
+    pub fn chains(&self) -> Vec<Springs<Chain>> {
+        self.springs.iter().map(CornerRow::chains).collect()
+    }
+}
+
+impl FootUnits {
+    /// The structure as a model for the program must have it.
+    pub fn structure(&self, structure: &Structure) -> Structure {
+        Structure { rotational_inertia_kgm2: self.rotational_inertia_kgm2, ..*structure }
+    }
+}
+
+#[cfg(test)]
+mod tests;

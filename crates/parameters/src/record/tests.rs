@@ -1,0 +1,110 @@
+use super::*;
+use dynamics::spring::{Design, Springs};
+use rocking::structure::Structure;
+
+fn parameters(excitation: &Excitation, folder: &Path) -> Parameters {
+    let design = Design::from_kc(0.3, 0.1, 0.75, 160.0);
+    let used = excitation.used().unwrap();
+    Parameters {
+        record: Some(RecordRow::new(excitation, &used, folder)),
+        ..Parameters::new(Structure::paper(), &Springs { vertical: design, horizontal: design })
+    }
+}
+
+/// Written and read as a file is.
+fn again(parameters: &Parameters) -> Parameters {
+    Parameters::parse("p.json", &parameters.to_json()).unwrap()
+}
+
+#[test]
+fn a_file_is_found_from_the_folder_of_the_parameters_wherever_both_are_moved() {
+    let dir = tempfile::tempdir().unwrap();
+    for folder in ["old/motions", "old/out"] {
+        std::fs::create_dir_all(dir.path().join(folder)).unwrap();
+    }
+    let file = dir.path().join("old/motions/a.txt");
+    std::fs::write(&file, "0.1\n0.3\n-0.2\n").unwrap();
+    let options = ReadOptions { dt: Some(0.02), units: Some(Units::G), ..Default::default() };
+    let record = Record::read(&file, &options).unwrap();
+    let excitation = Excitation { record, scale: 1.5, duration_s: Some(0.02) };
+    // a folder that is made only later
+    let written = parameters(&excitation, &dir.path().join("old/out/run"));
+    let row = written.record.clone().unwrap();
+    let way = "../../motions/a.txt".to_string();
+    let named = file.display().to_string();
+    assert_eq!(
+        row.source,
+        Some(SourceRow::File {
+            file: named,
+            path: way,
+            units: Units::G,
+            component: None,
+            baseline: false
+        })
+    );
+    assert_eq!((row.scale, row.duration_s, row.pga_time_s), (Some(1.5), Some(0.02), Some(0.02)));
+
+    std::fs::rename(dir.path().join("old"), dir.path().join("new")).unwrap();
+    std::fs::create_dir(dir.path().join("new/out/run")).unwrap();
+    let path = dir.path().join("new/out/run/parameters.json");
+    let found = again(&written).excitation(&path).unwrap();
+    assert_eq!(found, Excitation { record: found.record.clone(), ..excitation.clone() });
+    assert_eq!(found.record, excitation.record);
+
+    let file = dir.path().join("new/motions/a.txt");
+    std::fs::write(&file, "0.1\n0.3\n-0.21\n").unwrap();
+    let changed = written.excitation(&path).unwrap_err().to_string();
+    assert!(
+        changed.contains("a.txt has changed since the springs were tuned (the hash of its"),
+        "{changed}"
+    );
+    std::fs::write(&file, "# units: cm/s2\n0.1\n0.3\n-0.2\n").unwrap();
+    assert!(matches!(written.excitation(&path), Err(RememberedError::Changed { .. })));
+    std::fs::remove_file(&file).unwrap();
+    assert!(matches!(written.excitation(&path), Err(RememberedError::Missing { .. })));
+}
+
+#[test]
+fn the_embedded_record_is_remembered_as_such_and_numbers_are_said_to_be_nowhere() {
+    let el_centro = Excitation { scale: 2.0, ..Excitation::whole(Record::el_centro()) };
+    let found =
+        again(&parameters(&el_centro, Path::new("out"))).excitation(Path::new("p.json")).unwrap();
+    assert_eq!(found, Excitation { duration_s: Some(el_centro.duration()), ..el_centro });
+    let made = Excitation::whole(Record::new("made", 0.01, vec![1.0; 10]).unwrap());
+    let error = parameters(&made, Path::new("out"))
+        .excitation(Path::new("p.json"))
+        .unwrap_err()
+        .to_string();
+    assert_eq!(
+        error,
+        "p.json: its record made was given as numbers and is in no file; save it as a column of \
+         accelerations, in Python \
+         numpy.savetxt(\"motion.txt\", record.accel), and name it with --record motion.txt --dt \
+         0.01 --units m/s2"
+    );
+}
+
+#[test]
+fn files_of_schema_1_stand_for_20_s_of_el_centro() {
+    let text = include_str!("../../../../fuzz/corpus/parameters/paper");
+    let old = Parameters::parse("p.json", text).unwrap();
+    assert_eq!((old.schema, old.assessment), (1, None));
+    let found = old.excitation(Path::new("p.json")).unwrap();
+    assert_eq!(
+        (&found.record, found.scale, found.duration_s),
+        (&Record::el_centro(), 1.0, Some(20.0))
+    );
+}
+
+#[test]
+fn a_way_leads_from_one_folder_to_a_file_in_another() {
+    for (folder, file, expected) in [
+        ("/a/b/c", "/a/b/d/x", "../d/x"),
+        ("/a/b", "/a/b/x", "x"),
+        ("/a/b", "/a/x", "../x"),
+        ("/a/b", "/c/x", "/c/x"),
+        ("out", "x", "../x"),
+    ] {
+        assert_eq!(way(Path::new(folder), Path::new(file)), Path::new(expected), "{folder} {file}");
+    }
+}

@@ -1,0 +1,367 @@
+//! Forces of a rigid body to design with: those of Housner's body, which no spring enters, beside
+//! the same on springs.
+//!
+//! ```text
+//!   F, N            horizontal and vertical force of the ground on the body (`regime`)
+//!   block           column shear F, axial force -N, moment about the middle of the base (N_left - N_right) b
+//!   A-frame         of a leg, D from the mass to its foot:  axial (H, N).D/|D|,  moment at the apex H D_z - N D_x,
+//!                   shear moment/|D|;  standing, both feet take F/2:  moment W b/2
+//! ```
+//!
+//! An impact's impulse is not among them. On springs alone, near a touch-down, the body bears its
+//! weight under the vertical motion. A force holds if, later than 0.1/p after every
+//! touch-down, its largest value on the springs is within 5 % of Housner's.
+
+use crate::answers::{MemberHistory, ModelComparison};
+use dynamics::compare::Match;
+use dynamics::fem::{Demands, History, between_landings};
+use frames::design_forces::{ForcesTogether, HeldForce};
+use results::{DesignForce, DesignForces};
+use rocking::{
+    housner::Rocking,
+    motion::TimedPeak,
+    overturning::samples_until,
+    regime::{self, ground_forces},
+    scalar::GRAVITY,
+    structure::{Body, Kind},
+};
+use strong_motion::Record;
+
+/// Column shear, moment and axial force: of a block about its base, of an A-frame's legs at the
+/// apex.
+type ForceRow = [f64; 3];
+
+/// The forces of a run. Where Housner's body cannot tell them, with members or beyond the end of
+/// his solution, they are those of the history on springs, which `softer` follows on springs of a
+/// quarter of Omega_n. `foretold_s`: up to when his history can be foretold (s), if that is not its
+/// end.
+pub fn design_forces(
+    kind: Kind,
+    body: &Body<f64>,
+    record: &Record,
+    both: &ModelComparison,
+    softer: Option<&MemberHistory>,
+    foretold_s: Option<f64>,
+) -> DesignForces {
+    let dt = record.dt;
+    let until =
+        |times: [Option<f64>; 2]| samples_until(times.into_iter().flatten().reduce(f64::min), dt);
+    let (sole, mut rows) = match softer {
+        Some(softer) => {
+            let peaks = |matched: &Match, history: &History, demands: &Demands| {
+                let samples = until([matched.overturned_fem_s, None]).min(history.motion.len());
+                let kept = all_between(body, dt, history, samples);
+                let mut peaks = on_springs(kind, body, dt, (history, demands), &kept);
+                let all = &history.forces.both[0][..samples];
+                if let Some((i, n)) = borne_in_landings(body.mass, record.up(), all, &kept) {
+                    let side = history.forces.both[1][i].signum();
+                    bear(kind, body, (i as f64 * dt, n, side), &mut peaks);
+                }
+                peaks
+            };
+            let own = match &both.with {
+                Some(with) => peaks(&with.matched, &with.history, &with.demands),
+                None => peaks(&both.matched, &both.fem, &both.demands),
+            };
+            let other = peaks(&softer.matched, &softer.history, &softer.demands);
+            let force = |k: usize| {
+                let change = relative(own[k].value, other[k].value);
+                DesignForce::measured(own[k].value, own[k].time, change)
+            };
+            (force(0), [1, 2, 3].map(force))
+        }
+        None => {
+            let samples = until([both.matched.overturned_housner_s, both.matched.overturned_fem_s]);
+            let housner = of_housner(kind, body, record, &both.rocking, samples);
+            let kept = all_between(body, dt, &both.fem, samples.min(housner.len()));
+            let springs = on_springs(kind, body, dt, (&both.fem, &both.demands), &kept);
+            let force = |k: usize| {
+                let series: Vec<f64> = housner.iter().map(|row| row.largest(k)).collect();
+                let all = TimedPeak::of(dt, &series).unwrap_or_default();
+                let same = kept.iter().map(|&i| series[i].abs()).fold(0.0, f64::max);
+                let change = relative(same, springs[k].value);
+                let row = housner.get((all.time / dt).round() as usize);
+                let together = row.map(|row| row.together(kind, k));
+                let found = DesignForce::measured(all.value, all.time, change);
+                let held = foretold_s.filter(|until| found.holds && all.time > *until);
+                let held = held.and_then(|over_s| {
+                    let part = &series[..samples_until(Some(over_s), dt).min(series.len())];
+                    Some(HeldForce { value: TimedPeak::of(dt, part)?.value, over_s })
+                });
+                // no thrust between feet: a leg's shear and moment are those of its own weight,
+                // which a vertical motion makes more
+                let own = kind == Kind::AFrame
+                    && row.is_some_and(|row| row.stands)
+                    && [1, 2].contains(&k);
+                let at_rest = Some(all.value).filter(|_| own);
+                DesignForce { together, held, at_rest, rigid: Some(all.value), ..found }
+            };
+            (force(0), [1, 2, 3].map(force))
+        }
+    };
+    let half = 0.5 * body.mass * GRAVITY;
+    let at_rest = GroundRow::new(kind, body, 0.0, [[0.0, half]; 2]);
+    if kind == Kind::AFrame {
+        for (force, k) in rows.iter_mut().zip(1..) {
+            force.at_rest = force.at_rest.or(Some(at_rest.largest(k)));
+        }
+    }
+    let [shear, moment, axial] = rows.map(Some);
+    let all = DesignForces { column_shear_n: shear, axial_n: axial, ..DesignForces::default() };
+    match kind {
+        Kind::Block => DesignForces { column_base_moment_nm: moment, ..all },
+        Kind::AFrame => DesignForces { apex_moment_nm: moment, sole_shear_n: Some(sole), ..all },
+    }
+}
+
+/// How far two magnitudes are from each other; none where there is nothing to compare.
+fn relative(value: f64, other: f64) -> Option<f64> {
+    (value != 0.0)
+        .then(|| (other.abs() / value.abs() - 1.0).abs())
+        .filter(|change| change.is_finite())
+}
+
+/// Samples that no landing on springs is near to.
+fn all_between(body: &Body<f64>, dt: f64, history: &History, samples: usize) -> Vec<usize> {
+    between_landings(body, dt, &history.landings, samples.min(history.motion.len())).collect()
+}
+
+/// Forces, sample by sample, of Housner's body.
+fn of_housner(
+    kind: Kind,
+    body: &Body<f64>,
+    record: &Record,
+    rocking: &Rocking<f64>,
+    samples: usize,
+) -> Vec<GroundRow> {
+    let forces = ground_forces(body, (&record.accel, record.up()), rocking);
+    let row = |(i, (f, n)): (usize, (f64, f64))| {
+        let (theta, rate) = (rocking.theta[i], rocking.rate[i]);
+        let at = |record: &[f64]| record.get(i).copied().unwrap_or(0.0) / GRAVITY;
+        let ground = (at(&record.accel), 1.0 + at(record.up()));
+        let rests = theta == 0.0 && rate == 0.0;
+        let stands = rests && regime::stands(body, ground);
+        let (b, h) = (body.half_width, body.height);
+        // forces of the left foot and of the right one
+        let feet = if stands {
+            let apart = f * h / b;
+            [[0.5 * f, 0.5 * (n + apart)], [0.5 * f, 0.5 * (n - apart)]]
+        } else if theta > 0.0 || (theta == 0.0 && rate > 0.0) || (rests && ground.0 < 0.0) {
+            [[0.0; 2], [f, n]]
+        } else {
+            [[f, n], [0.0; 2]]
+        };
+        GroundRow { stands, ..GroundRow::new(kind, body, theta, feet) }
+    };
+    forces.into_iter().enumerate().take(samples).map(row).collect()
+}
+
+/// Forces at one instant.
+struct GroundRow {
+    /// Whether both feet bear.
+    stands: bool,
+    /// On the body, horizontally (N).
+    sole_shear: f64,
+    /// Of the left leg and of the right one; of a block the same twice.
+    legs: [ForceRow; 2],
+}
+
+impl GroundRow {
+    /// For forces (H, N) of the left and the right foot of a body that leans by theta.
+    fn new(kind: Kind, body: &Body<f64>, theta: f64, feet: [[f64; 2]; 2]) -> Self {
+        let [[left_h, left_n], [right_h, right_n]] = feet;
+        let sole_shear = left_h + right_h;
+        if kind == Kind::Block {
+            let moment = (left_n - right_n) * body.half_width;
+            let row = [sole_shear, moment, -(left_n + right_n)];
+            return Self { stands: false, sole_shear, legs: [row; 2] };
+        }
+        let (sin, cos) = theta.sin_cos();
+        let legs = [(-1.0, feet[0]), (1.0, feet[1])].map(|(side, [h, n])| {
+            // from the mass to the foot, turned clockwise with the body
+            let (x, z) = (side * body.half_width, -body.height);
+            let (dx, dz) = (x * cos + z * sin, z * cos - x * sin);
+            let length = body.radius();
+            let moment = h * dz - n * dx;
+            [moment / length, moment, (h * dx + n * dz) / length]
+        });
+        Self { stands: false, sole_shear, legs }
+    }
+
+    /// The leg where a force of a leg is the larger one: 0 shear, 1 moment, 2 axial force.
+    fn leg(&self, force: usize) -> ForceRow {
+        let [left, right] = self.legs;
+        if left[force].abs() >= right[force].abs() { left } else { right }
+    }
+
+    /// Shear at the sole (0), column shear (1), moment (2), axial force (3).
+    fn largest(&self, k: usize) -> f64 {
+        k.checked_sub(1).map_or(self.sole_shear, |force| self.leg(force)[force])
+    }
+
+    /// What acts together with the same; with the shear at the sole, in the leg that bears the
+    /// larger axial force.
+    fn together(&self, kind: Kind, k: usize) -> ForcesTogether {
+        let [column_shear_n, moment, axial_n] = self.leg(k.checked_sub(1).unwrap_or(2));
+        let (column_base_moment_nm, apex_moment_nm) = match kind {
+            Kind::Block => (moment, None),
+            Kind::AFrame => (0.0, Some(moment)),
+        };
+        ForcesTogether { column_shear_n, axial_n, column_base_moment_nm, apex_moment_nm }
+    }
+}
+
+/// Largest shear at the sole, column shear, moment and axial force of a history on springs, over
+/// these samples.
+fn on_springs(
+    kind: Kind,
+    body: &Body<f64>,
+    dt: f64,
+    (history, demands): (&History, &Demands),
+    kept: &[usize],
+) -> [TimedPeak; 4] {
+    let mut peaks = [TimedPeak::default(); 4];
+    let [sum, difference] = &history.forces.both;
+    for &i in kept {
+        let row = &demands.rows[i];
+        // each is that of one instant
+        let all = match kind {
+            Kind::AFrame => [2, 3, 1]
+                .map(|k| if row[k].abs() >= row[k + 3].abs() { row[k] } else { row[k + 3] }),
+            Kind::Block => [row[0], difference[i] * body.half_width, -sum[i]],
+        };
+        for (peak, value) in peaks.iter_mut().zip([row[0], all[0], all[1], all[2]]) {
+            if value.abs() > peak.value.abs() {
+                *peak = TimedPeak { value, time: i as f64 * dt };
+            }
+        }
+    }
+    peaks
+}
+
+/// Near landings, at the other samples than `kept`, what a body that presses on the ground (`sum`,
+/// N) bears at least: its weight under the vertical motion (m/s2). The largest of it (N), and its
+/// sample; nothing without a vertical motion. A landing adds its impulse, which is not a design
+/// force.
+fn borne_in_landings(mass: f64, up: &[f64], sum: &[f64], kept: &[usize]) -> Option<(usize, f64)> {
+    let near = |i: &usize| kept.binary_search(i).is_err() && sum[*i] > 0.0;
+    let borne = |i: usize| (i, mass * (GRAVITY + up[i]));
+    let all = (0..sum.len().min(up.len())).filter(near).map(borne);
+    all.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, n)| *n > 0.0)
+}
+
+/// A vertical force N at a time (s), on the left corner of a block (side 1) or on the right one
+/// (-1), or on one leg of a frame, where its peaks are less.
+fn bear(
+    kind: Kind,
+    body: &Body<f64>,
+    (time, n, side): (f64, f64, f64),
+    peaks: &mut [TimedPeak; 4],
+) {
+    let [_, _, moment, axial] = peaks;
+    let (along, arm) = match kind {
+        Kind::Block => (n, n * body.half_width),
+        Kind::AFrame => (n * body.height / body.radius(), 0.0),
+    };
+    for (peak, value) in [(moment, side * arm), (axial, -along)] {
+        if value.abs() > peak.value.abs() {
+            *peak = TimedPeak { value, time };
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::answers::both;
+    use dynamics::spring::{Design, Springs};
+    use rocking::{members::Members, structure::Structure};
+
+    fn forces(structure: &Structure, hz: f64, accel: Vec<f64>) -> DesignForces {
+        let record = Record::new("made up", 0.01, accel).unwrap();
+        let design = Design::from_kc(0.3, 0.1, 0.75, hz);
+        let springs = Springs { vertical: design, horizontal: design }.chains(structure.mass_kg);
+        let body = structure.body();
+        let both = both(&body, body.restitution(), &springs, &Members::default(), &record);
+        design_forces(structure.kind, &body, &record, &both, None, None)
+    }
+
+    /// Standing under a_g: shear m a_g, axial W; a leg carries a moment of W b/2 at the apex
+    /// whatever the ground does.
+    #[test]
+    fn a_standing_frame_bears_what_statics_say() {
+        let frame = Structure::a_frame(9.0, 2.1, 120e3).unwrap();
+        let push = |i: usize| 0.5 * (i as f64 / 200.0).min(1.0);
+        let all = forces(&frame, 1280.0, (0..400).map(push).collect());
+        let weight = frame.mass_kg * GRAVITY;
+        let sole = all.sole_shear_n.unwrap();
+        assert!(sole.holds && (sole.value.unwrap().abs() / 60e3 - 1.0).abs() < 1e-6, "{sole:?}");
+        let apex = all.apex_moment_nm.unwrap();
+        assert!((apex.value.unwrap().abs() / (weight * 1.05 / 2.0) - 1.0).abs() < 1e-9, "{apex:?}");
+        assert!(all.column_base_moment_nm.is_none());
+        // one leg's: its moment is its shear times its length, and it bears half of the weight and
+        // a part of the push
+        let with = apex.together.unwrap();
+        let length = 9f64.hypot(1.05);
+        assert_eq!(with.apex_moment_nm, apex.value);
+        assert!(
+            (with.column_shear_n * length / apex.value.unwrap() - 1.0).abs() < 1e-9,
+            "{with:?}"
+        );
+        let axial = all.axial_n.unwrap();
+        let with = axial.together.unwrap();
+        let by_hand = 0.5 * weight * 9.0 / length
+            + 60e3 * (9.0 / 1.05) / 2.0 * 9.0 / length
+            + 30e3 * 1.05 / length;
+        assert!((with.axial_n / -by_hand - 1.0).abs() < 1e-6, "{with:?} {by_hand}");
+        assert_eq!(with.column_base_moment_nm, 0.0);
+    }
+
+    /// A block that stands in a ground motion presses on the ground by its weight, however fast the
+    /// two feet exchange it.
+    #[test]
+    fn a_standing_block_carries_its_weight_whatever_the_ground_does() {
+        let block = Structure::block(1.2, 0.6, 300.0).unwrap();
+        let shake = |i: usize| 2.2 * (std::f64::consts::TAU * 4.0 * 0.01 * i as f64).sin();
+        let all = forces(&block, 10240.0, (0..300).map(shake).collect());
+        let axial = all.axial_n.unwrap();
+        assert!((axial.value.unwrap() / (-300.0 * GRAVITY) - 1.0).abs() < 1e-9, "{axial:?}");
+        assert!(axial.change.unwrap() < 1e-3, "{axial:?}");
+    }
+
+    /// Near landings a block bears m (g + a_v) at least, on one corner, while it presses.
+    #[test]
+    fn a_landing_hides_no_vertical_motion() {
+        let up = [0.0, 0.0, 18.0, 20.0, 0.0];
+        let sum = [6e3, 6e3, 9e3, 0.0, 6e3];
+        let found = borne_in_landings(640.0, &up, &sum, &[0, 1, 4]);
+        assert_eq!(found, Some((2, 640.0 * (GRAVITY + 18.0))));
+        assert_eq!(borne_in_landings(640.0, &[], &sum, &[0]), None);
+        let body = Structure::block(2.1, 0.45, 640.0).unwrap().body();
+        let mut peaks = [TimedPeak { value: 12e3, time: 1.0 }; 4];
+        bear(Kind::Block, &body, (2.0, 17.8e3, -1.0), &mut peaks);
+        assert_eq!(peaks[3], TimedPeak { value: -17.8e3, time: 2.0 });
+        assert_eq!([peaks[0].value, peaks[2].value], [12e3; 2]);
+        peaks[2].value = 1e3;
+        bear(Kind::Block, &body, (2.0, 17.8e3, -1.0), &mut peaks);
+        assert!((peaks[2].value + 17.8e3 * 0.225).abs() < 1e-9);
+    }
+
+    /// A block's base moment is at most W b, which it reaches when it lifts; its shear then is m g
+    /// tan(alpha).
+    #[test]
+    fn a_block_that_rocks_carries_its_weight_on_one_corner() {
+        let block = Structure::block(2.0, 0.5, 1000.0).unwrap();
+        let pulse = |i: usize| if i < 45 { 4.0 * (i as f64 / 20.0).min(1.0) } else { 0.0 };
+        let all = forces(&block, 10240.0, (0..1000).map(pulse).collect());
+        let (weight, b) = (block.mass_kg * GRAVITY, 0.25);
+        let moment = all.column_base_moment_nm.unwrap();
+        assert!(moment.holds, "{moment:?}");
+        // the weight on a corner, less what the body's fall and turning take, at most plus the
+        // centrifugal part
+        assert!((0.8..1.2).contains(&(moment.value.unwrap().abs() / (weight * b))), "{moment:?}");
+        let shear = all.column_shear_n.unwrap();
+        assert!(shear.holds && shear.value.unwrap().abs() < 1.5 * 1000.0 * 4.0, "{shear:?}");
+        assert!(all.axial_n.unwrap().value.unwrap() < 0.0 && all.apex_moment_nm.is_none());
+    }
+}

@@ -1,0 +1,398 @@
+//! Findings: what a reader of a run must know beside its numbers. Each is data; its words are made
+//! here and nowhere else.
+
+use serde::{Deserialize, Serialize};
+
+use dynamics::effort::CutBy;
+
+mod advice;
+mod force_name;
+mod message;
+mod not_done;
+mod of_steps;
+
+pub use force_name::ForceName;
+pub use message::{HARDLY_ROCKS, apart_words};
+pub use not_done::NotDone;
+pub use of_steps::{NotToBeUsed, ProgramAdvice, ProgramFault};
+
+/// How much a finding weighs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Weight {
+    /// What the run was asked.
+    Answer,
+    /// Good to know.
+    Note,
+    /// Numbers need judgement.
+    Warning,
+    /// Numbers must not be used as they are.
+    Fault,
+}
+
+/// Which of the two models.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FindingModel {
+    /// Housner's rigid body; an elastic structure on rigid ground with plastic landings.
+    Reference,
+    /// On its springs.
+    Springs,
+    /// On its springs, with dampers, tendon or friction.
+    Members,
+}
+
+/// Why a history ended before its record did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Ending {
+    /// The bound on steps was reached.
+    WorkBound,
+    /// The rotation lost its balance.
+    Unstable,
+    /// The numbers overflowed, or no step could be made.
+    Stopped,
+}
+
+/// A finding with its quantities, SI units.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "finding", rename_all = "snake_case")]
+#[allow(missing_docs)] // `message` says what variants and their fields are
+pub enum Finding {
+    // what the structure does
+    NeverLifts {
+        pga_g: f64,
+        uplift_g: f64,
+    },
+    Stands {
+        /// On springs.
+        share_of_overturning: f64,
+        /// Of the reference, where it can be told.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        reference_share: Option<f64>,
+        over_s: f64,
+        /// When its rotation on springs is largest (s), where that is known.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        largest_at_s: Option<f64>,
+        /// Whether it would need more friction than there is.
+        #[serde(default)]
+        if_feet_hold: bool,
+        /// Whether shares are of columns that rock on footings of their own.
+        #[serde(default)]
+        of_columns: bool,
+    },
+    Overturns {
+        time_s: f64,
+        reference_s: Option<f64>,
+    },
+    NoAnswer {
+        model: FindingModel,
+        time_s: f64,
+    },
+    ModelsDisagree {
+        reference: String,
+        springs: String,
+    },
+    PivotLeavesGround {
+        time_s: f64,
+    },
+    WithoutVertical {
+        does: String,
+        share_of_overturning: f64,
+    },
+    // what a comparison is worth
+    IllConditioned {
+        moved_by_width: f64,
+        moved_by_scale: f64,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        moved_by_restitution: Option<f64>,
+        /// Up to when no change of 0.1 %, of width, scale or restitution, moves it by a twentieth
+        /// of its peak (s); none: to its end.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        holds_to_s: Option<f64>,
+        springs_judged: bool,
+    },
+    ForetoldUpTo {
+        time_s: f64,
+        softer_hz: Option<f64>,
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        later_forces: Vec<ForceName>,
+    },
+    SlidesOn {
+        time_s: f64,
+        softer_hz: Option<f64>,
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        later_forces: Vec<ForceName>,
+    },
+    NearMotions {
+        motions: usize,
+        change: f64,
+        median_ratio: [Option<f64>; 2],
+        p90_ratio: [Option<f64>; 2],
+        overturned: [usize; 2],
+    },
+    // how accurate the springs are
+    AccuracyMissed {
+        asked: f64,
+        capped: bool,
+    },
+    PeaksMissed {
+        asked: f64,
+        capped: bool,
+    },
+    AccuracyNotMeasured,
+    RestitutionMissed {
+        asked: f64,
+        lowest: f64,
+        highest: f64,
+        of_equation_2: bool,
+    },
+    RestitutionOutOfReach {
+        asked: f64,
+        share: f64,
+        least: f64,
+        most: f64,
+    },
+    LandingsUnfinished {
+        finished: usize,
+        all: usize,
+    },
+    // springs for a program with fixed time steps
+    /// p dt is beyond what anything is known of; `longest_s` errs by a tenth, by the law of the
+    /// floor.
+    ProgramStepTooLong {
+        step_s: f64,
+        longest_s: f64,
+        asked: bool,
+    },
+    /// Histories that the program does not get through.
+    ProgramLoses {
+        program: String,
+        step_s: f64,
+        lost: usize,
+        histories: usize,
+        /// Whether it is SAP2000 or ETABS, which have no integrator that loses fewer.
+        #[serde(default)]
+        csi: bool,
+        asked: bool,
+    },
+    /// The springs err much on earthquake-like motions, which no step mends; `floor` is what the
+    /// step alone makes a history err.
+    ProgramErrsOnEarthquakes {
+        program: String,
+        step_s: f64,
+        median: Option<f64>,
+        motions: usize,
+        floor: f64,
+    },
+    /// The springs are of no use there.
+    ProgramNotToBeUsed {
+        program: String,
+        step_s: f64,
+        fault: ProgramFault,
+        advice: ProgramAdvice,
+        asked: bool,
+    },
+    /// The error asked for takes shorter steps, whatever the springs.
+    ProgramStepForAccuracy {
+        step_s: f64,
+        needed_s: f64,
+        accuracy: f64,
+    },
+    /// There are none: of a restitution other than equation 2's.
+    ProgramRestitution {
+        asked: bool,
+    },
+    ForceWithheld {
+        force: ForceName,
+        change: Option<f64>,
+        /// Of a rigid body: what Housner's equation gives (N or N m).
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        housner: Option<f64>,
+        /// Of a block, which has no column.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        of_block: bool,
+    },
+    ForcesHeldInPart {
+        over_s: f64,
+        changes: Vec<PeakChange>,
+    },
+    /// Largest forces that the structure bears before it moves, with what they are made of.
+    ForcesAtRest {
+        forces: Vec<ForceName>,
+    },
+    /// What was cut, after how many stiffnesses, and the error that was reached of what was asked
+    /// for.
+    SearchCut {
+        by: CutBy,
+        not_done: Vec<NotDone>,
+        stiffnesses: usize,
+        reached: Option<f64>,
+        asked: f64,
+    },
+    /// Histories of the search that met their own bound on steps: they count as not followed.
+    HistoriesUnfinished {
+        histories: usize,
+        left_out: bool,
+    },
+    /// Motions near the record whose histories met their own bound on steps.
+    NearMotionsLeftOut {
+        motions: usize,
+        /// Whether these are all.
+        #[serde(default)]
+        all: bool,
+    },
+    // whether the models hold
+    Sliding {
+        needed: f64,
+        time_s: Option<f64>,
+        available: f64,
+        /// Force that presses the ground then, over the weight, of an elastic structure.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        press_over_weight: Option<f64>,
+    },
+    FreeFlight {
+        time_s: f64,
+        lowest_over_weight: f64,
+    },
+    TooStocky {
+        restitution: f64,
+        friction_needed: f64,
+        available: f64,
+    },
+    HistoryEndsEarly {
+        model: FindingModel,
+        time_s: f64,
+        ending: Ending,
+    },
+    SmallestSteps {
+        model: FindingModel,
+        steps: usize,
+    },
+    MembersBeside,
+    /// Feet that landed elsewhere than they stood leave the structure bent, held by friction.
+    FeetApart {
+        apart_m: f64,
+        /// Whether the motion can be foretold to its end.
+        #[serde(default)]
+        predictable: bool,
+    },
+    VerticalLeftOut {
+        vertical_g: f64,
+        horizontal_g: f64,
+        /// When the structure overturns with it (s).
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        overturns_s: Option<f64>,
+        changes: Vec<PeakChange>,
+        /// Whether forces are measured to be the structure's, as design forces are.
+        #[serde(default)]
+        checked: bool,
+    },
+    // what was taken
+    // a filed finding has a message and a remedy already
+    Doubt {
+        #[serde(rename = "doubt")]
+        message: String,
+        #[serde(rename = "advice")]
+        remedy: String,
+    },
+    // what `tune verify` judges of the deck
+    DeckJudged {
+        judged_s: f64,
+        record_s: f64,
+        end: DeckEnd,
+    },
+}
+
+/// Why a deck's history is judged for less than the record.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DeckEnd {
+    /// All of the record is judged.
+    Record,
+    /// The body falls over, or our own history ends.
+    History,
+    /// From there on the motion hangs on the fifth digit of the width, or on changes as small.
+    Foretold,
+    /// The ground falls faster than a body that has no rotational inertia of its own.
+    Flight,
+    /// A corner slides on from a landing: what follows depends on friction.
+    Slides,
+}
+
+/// A quantity without and with something that was left out.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PeakChange {
+    /// What it is, in words.
+    pub quantity: String,
+    /// Unit.
+    pub unit: String,
+    /// As printed.
+    pub without: f64,
+    /// With what was left out.
+    pub with: f64,
+}
+
+/// A finding as parameters.json holds it: its quantities, and the words of this version of the
+/// program.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FiledFinding {
+    /// How much it weighs.
+    pub weight: Weight,
+    /// In one sentence.
+    pub message: String,
+    /// What to do.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub remedy: Option<String>,
+    /// Its name and quantities.
+    #[serde(flatten)]
+    pub finding: Finding,
+}
+
+impl FiledFinding {
+    /// Message and remedy.
+    pub fn line(&self) -> String {
+        match &self.remedy {
+            Some(remedy) => format!("{}: {remedy}", self.message),
+            None => self.message.clone(),
+        }
+    }
+}
+
+impl From<Finding> for FiledFinding {
+    fn from(finding: Finding) -> Self {
+        let (weight, message, remedy) = (finding.weight(), finding.message(), finding.remedy());
+        Self { weight, message, remedy, finding }
+    }
+}
+
+impl Finding {
+    /// How much it weighs.
+    pub fn weight(&self) -> Weight {
+        match self {
+            Self::NeverLifts { .. } | Self::Stands { .. } | Self::Overturns { .. } => {
+                Weight::Answer
+            }
+            Self::ModelsDisagree { .. }
+            | Self::NoAnswer { .. }
+            | Self::AccuracyMissed { .. }
+            | Self::PeaksMissed { .. }
+            | Self::HistoryEndsEarly { .. } => Weight::Fault,
+            Self::ForetoldUpTo { later_forces, .. } if later_forces.is_empty() => Weight::Note,
+            Self::ProgramStepTooLong { asked: false, .. }
+            | Self::ProgramLoses { asked: false, .. }
+            | Self::ProgramNotToBeUsed { asked: false, .. }
+            | Self::ProgramRestitution { asked: false }
+            | Self::ProgramStepForAccuracy { .. } => Weight::Note,
+            Self::NearMotions { .. }
+            | Self::ForcesAtRest { .. }
+            | Self::MembersBeside
+            | Self::DeckJudged { .. }
+            | Self::WithoutVertical { .. } => Weight::Note,
+            _ => Weight::Warning,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,164 @@
+//! What to do about findings, and what they mean.
+
+use super::{Ending, Finding};
+use dynamics::effort::CutBy;
+
+impl Finding {
+    /// What to do, if there is anything to do.
+    pub fn remedy(&self) -> Option<String> {
+        let text = match self {
+            Self::Stands { .. }
+            | Self::ForcesAtRest { .. }
+            | Self::MembersBeside
+            | Self::NearMotions { .. }
+            | Self::DeckJudged { .. }
+            | Self::WithoutVertical { .. } => {
+                return None;
+            }
+            Self::NeverLifts { .. } => "give a stronger record, or scale it: --scale",
+            Self::Overturns { .. } => "scale the record down for the margin: --scale",
+            Self::NoAnswer { .. } | Self::HistoryEndsEarly { ending: Ending::WorkBound, .. } => {
+                "take softer or more strongly damped springs: --max-hz; or a shorter record: \
+                    --duration"
+            }
+            Self::ModelsDisagree { .. } => {
+                "vary the scale by 1 %, and judge by many records: tune validate"
+            }
+            Self::PivotLeavesGround { .. } => "compare up to then",
+            Self::IllConditioned { .. } => "judge by many: tune init sweep",
+            Self::ForetoldUpTo { later_forces, .. } | Self::SlidesOn { later_forces, .. }
+                if !later_forces.is_empty() =>
+            {
+                "design by several records"
+            }
+            Self::ForetoldUpTo { softer_hz, .. } | Self::SlidesOn { softer_hz, .. } => {
+                let hz = (*softer_hz)?;
+                return Some(format!(
+                    "up to then --max-hz {:.0} is stiff enough, with fewer steps",
+                    hz.ceil()
+                ));
+            }
+            Self::AccuracyMissed { capped: true, .. } | Self::PeaksMissed { capped: true, .. } => {
+                "raise or drop --max-hz"
+            }
+            Self::AccuracyMissed { .. } | Self::PeaksMissed { .. } => {
+                "ask for less, or judge the springs by many records: tune validate"
+            }
+            Self::AccuracyNotMeasured => "judge the springs on records of your own: tune validate",
+            Self::RestitutionMissed { of_equation_2: true, .. } => {
+                "allow stiffer springs: --max-hz"
+            }
+            Self::RestitutionMissed { .. } | Self::RestitutionOutOfReach { .. } => {
+                "ask for a restitution nearer to equation 2's"
+            }
+            Self::ProgramStepTooLong { .. }
+            | Self::ProgramLoses { .. }
+            | Self::ProgramNotToBeUsed { .. }
+            | Self::ProgramErrsOnEarthquakes { .. }
+            | Self::ProgramStepForAccuracy { .. }
+            | Self::ProgramRestitution { .. } => return self.remedy_of_steps(),
+            Self::LandingsUnfinished { .. } => "allow other springs: --max-hz, --accuracy",
+            Self::ForceWithheld { housner: Some(_), .. } => {
+                "design for the larger, or take stiffer springs: --accuracy"
+            }
+            Self::ForceWithheld { .. } => "refine: elements, --accuracy",
+            Self::SearchCut { .. }
+            | Self::HistoriesUnfinished { .. }
+            | Self::NearMotionsLeftOut { .. } => return self.remedy_of_search(),
+            Self::ForcesHeldInPart { .. } => "design for the larger, and by several records",
+            Self::Sliding { .. } => {
+                "give a shear key: feet do not slide here; --friction sets what the ground offers"
+            }
+            Self::FreeFlight { .. } => "compare up to that time only",
+            Self::TooStocky { .. } => "check height and width; rely on tests for such a body",
+            Self::HistoryEndsEarly { .. } => {
+                "take stiffer springs, or rotational_inertia_kgm2 above 0.002 m R^2"
+            }
+            Self::FeetApart { .. } => "tie the feet, or design for what stays",
+            Self::SmallestSteps { .. } => "compare with OpenSees: tune verify",
+            Self::VerticalLeftOut { .. } => "take it: --vertical auto",
+            Self::Doubt { remedy, .. } => return Some(remedy.clone()),
+        };
+        Some(text.into())
+    }
+
+    /// Of a search that did not end.
+    fn remedy_of_search(&self) -> Option<String> {
+        let text = match self {
+            Self::SearchCut { by: CutBy::Work, .. } => {
+                "allow more: --work 10; or ask for less: --accuracy, --max-hz"
+            }
+            Self::SearchCut { by: CutBy::TimeLimit, .. } => "raise or leave out --time-limit",
+            Self::SearchCut { by: CutBy::Interrupt, .. } => "run it again to its end",
+            Self::HistoriesUnfinished { left_out: true, .. } | Self::NearMotionsLeftOut { .. } => {
+                "allow more: --work 10"
+            }
+            Self::HistoriesUnfinished { .. } => "judge the springs by many records: tune validate",
+            _ => return None,
+        };
+        Some(text.into())
+    }
+
+    /// What it means, for a report that has the room.
+    pub fn meaning(&self) -> Option<&'static str> {
+        Some(match self {
+            Self::NeverLifts { .. } => {
+                "Nothing rocks, so there is no history to compare. The springs follow from the \
+                    geometry, and their accuracy was measured on synthetic motions."
+            }
+            Self::Overturns { .. } => {
+                "Peaks, errors and forces count up to the time of overturning only; what follows \
+                    is a fall."
+            }
+            Self::ModelsDisagree { .. } => {
+                "Near the edge of overturning the smallest change decides; elsewhere the springs \
+                    are too soft."
+            }
+            Self::PivotLeavesGround { .. } => {
+                "His equation holds while the foot presses on the ground. The finite elements go \
+                    on, without anything to compare them with."
+            }
+            Self::IllConditioned { .. } => {
+                "A change far smaller than what is unknown of a real structure makes another \
+                    history of it. No two models, and no two tests, agree on it one to one, \
+                    whatever the springs."
+            }
+            Self::AccuracyMissed { .. } | Self::PeaksMissed { .. } => {
+                "These are the best springs found within what was allowed; the table of accuracy \
+                    says by how much they miss."
+            }
+            Self::SearchCut { .. } => {
+                "The springs are the best of those judged until then. Nothing that was measured of \
+                    them depends on where the search ended."
+            }
+            Self::HistoriesUnfinished { .. } => {
+                "A history has a bound of its own on its steps, so that every search ends; the \
+                    springs that it was on, or the motion, had to be judged without its end."
+            }
+            Self::AccuracyNotMeasured => {
+                "No motion that was tried rocks this structure and can be followed one to one."
+            }
+            Self::RestitutionMissed { .. } | Self::RestitutionOutOfReach { .. } => {
+                "A body on soft springs sways before it lifts and loses less; a restitution other \
+                    than equation 2's is met by a search, not exactly."
+            }
+            Self::Sliding { .. } => {
+                "Housner's body and the springs hold the feet at any force. A real structure would \
+                    slide, and rock less."
+            }
+            Self::FreeFlight { .. } => {
+                "Housner's equation would have to pull the foot down there; the finite elements \
+                    let it go."
+            }
+            Self::HistoryEndsEarly { .. } | Self::NoAnswer { .. } => {
+                "Both models are compared up to there."
+            }
+            Self::ForceWithheld { .. } => {
+                "A force that grows with the springs or the mesh is the model's, not the \
+                    structure's. Where a finer model does not settle it, take it from another kind \
+                    of model."
+            }
+            _ => return None,
+        })
+    }
+}

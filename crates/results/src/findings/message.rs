@@ -1,0 +1,355 @@
+//! The words of findings.
+
+mod regime;
+mod taken;
+
+use super::{Finding, FindingModel, ForceName};
+use dynamics::effort::CutBy;
+use files::message::{percent, quantity, significant};
+
+fn on(model: FindingModel) -> &'static str {
+    match model {
+        FindingModel::Reference => "of the reference",
+        FindingModel::Springs => "on the springs",
+        FindingModel::Members => "with members",
+    }
+}
+
+/// Part by which largest rotations on springs and without differ, both of which are then said.
+const SHARES_DIFFER: f64 = 0.05;
+
+/// Share of overturning below which a body that lifts does not rock to speak of.
+pub const HARDLY_ROCKS: f64 = 1e-4;
+
+/// What is said of such a one.
+const HARDLY: &str = "it lifts, but does not rock to speak of";
+
+fn s(time: f64) -> String {
+    format!("{} s", significant(time, 4))
+}
+
+/// How much further apart feet are (m).
+pub fn apart_words(apart_m: f64) -> String {
+    let way = if apart_m > 0.0 { "further apart" } else { "closer together" };
+    format!("{} {way}", quantity(apart_m.abs(), "m"))
+}
+
+/// Names of forces in a sentence.
+fn listed(forces: &[ForceName]) -> String {
+    let names: Vec<&str> = forces.iter().map(|force| force.words()).collect();
+    match names.as_slice() {
+        [all @ .., one, last] => [all, &[&format!("{one} and {last}")]].concat().join(", "),
+        few => few.concat(),
+    }
+}
+
+/// Design forces whose largest value comes after what can be predicted.
+fn later(forces: &[ForceName]) -> String {
+    match forces.len() {
+        0 => String::new(),
+        1 => format!("{} comes after what can be predicted: ", listed(forces)),
+        _ => format!("{} come after what can be predicted: ", listed(forces)),
+    }
+}
+
+impl Finding {
+    /// In one sentence.
+    pub fn message(&self) -> String {
+        match self {
+            Self::NeverLifts { .. }
+            | Self::Stands { .. }
+            | Self::Overturns { .. }
+            | Self::NoAnswer { .. }
+            | Self::ModelsDisagree { .. }
+            | Self::PivotLeavesGround { .. }
+            | Self::WithoutVertical { .. } => self.outcome(),
+            Self::IllConditioned { .. }
+            | Self::ForetoldUpTo { .. }
+            | Self::SlidesOn { .. }
+            | Self::NearMotions { .. } => self.comparison(),
+            Self::AccuracyMissed { .. }
+            | Self::PeaksMissed { .. }
+            | Self::AccuracyNotMeasured
+            | Self::RestitutionMissed { .. }
+            | Self::RestitutionOutOfReach { .. }
+            | Self::LandingsUnfinished { .. }
+            | Self::ForceWithheld { .. }
+            | Self::ForcesHeldInPart { .. }
+            | Self::ForcesAtRest { .. }
+            | Self::MembersBeside => self.springs(),
+            Self::ProgramStepTooLong { .. }
+            | Self::ProgramLoses { .. }
+            | Self::ProgramNotToBeUsed { .. }
+            | Self::ProgramErrsOnEarthquakes { .. }
+            | Self::ProgramStepForAccuracy { .. }
+            | Self::ProgramRestitution { .. } => self.program(),
+            Self::SearchCut { .. }
+            | Self::HistoriesUnfinished { .. }
+            | Self::NearMotionsLeftOut { .. } => self.effort(),
+            Self::Sliding { .. }
+            | Self::FreeFlight { .. }
+            | Self::TooStocky { .. }
+            | Self::HistoryEndsEarly { .. }
+            | Self::FeetApart { .. }
+            | Self::SmallestSteps { .. } => self.regime(),
+            Self::VerticalLeftOut { .. } | Self::Doubt { .. } | Self::DeckJudged { .. } => {
+                self.taken()
+            }
+        }
+    }
+
+    /// What the structure does.
+    fn outcome(&self) -> String {
+        match self {
+            Self::NeverLifts { pga_g, uplift_g } => {
+                let short = if pga_g > uplift_g { " for longer than its peaks last" } else { "" };
+                format!(
+                    "the record does not lift the structure: its peak is {} g, uplift takes {} \
+                        g{short}",
+                    significant(*pga_g, 4),
+                    significant(*uplift_g, 4)
+                )
+            }
+            Self::Stands {
+                share_of_overturning,
+                reference_share,
+                largest_at_s,
+                if_feet_hold,
+                of_columns,
+                ..
+            } => {
+                let differs = |reference: &f64| {
+                    (reference - share_of_overturning).abs()
+                        > SHARES_DIFFER * share_of_overturning.max(*reference)
+                };
+                let other = reference_share.filter(differs).map_or(String::new(), |reference| {
+                    format!(" on springs, {} without", percent(reference))
+                });
+                let largest = percent(*share_of_overturning);
+                if *share_of_overturning < HARDLY_ROCKS {
+                    return format!("{HARDLY}: largest rotation {largest} of overturning");
+                }
+                format!(
+                    "it rocks and stands{}: largest rotation {}{} of overturning{other}{}",
+                    if *if_feet_hold { ", if its feet hold" } else { "" },
+                    if *of_columns { "of columns " } else { "" },
+                    largest,
+                    largest_at_s.map_or(String::new(), |time| format!(", at {}", s(time)))
+                )
+            }
+            Self::Overturns { time_s, reference_s } => match reference_s {
+                Some(reference) => format!(
+                    "the structure overturns at t = {} (in the reference at {}); numbers count up \
+                        to then",
+                    s(*time_s),
+                    s(*reference)
+                ),
+                None => format!(
+                    "the structure overturns at t = {}; numbers count up to then",
+                    s(*time_s)
+                ),
+            },
+            Self::NoAnswer { model, time_s } => {
+                format!(
+                    "the history {} could not be followed beyond t = {}",
+                    on(*model),
+                    s(*time_s)
+                )
+            }
+            Self::ModelsDisagree { reference, springs } => {
+                format!(
+                    "the models disagree: the reference {reference}, the structure on its springs \
+                        {springs}"
+                )
+            }
+            Self::PivotLeavesGround { time_s } => {
+                format!("Housner's pivot leaves the ground at {} and his solution ends", s(*time_s))
+            }
+            Self::WithoutVertical { does, share_of_overturning } => {
+                let largest = match *share_of_overturning {
+                    share if share < 1.0 => {
+                        format!("; its largest rotation is {} of overturning", percent(share))
+                    }
+                    _ => String::new(),
+                };
+                format!("without the vertical component it {does}{largest}")
+            }
+            _ => String::new(),
+        }
+    }
+
+    /// What a comparison one to one is worth.
+    fn comparison(&self) -> String {
+        match self {
+            // up to when it can be predicted the verdict tells, on what springs were judged the
+            // accuracy
+            Self::IllConditioned {
+                moved_by_width,
+                moved_by_scale,
+                moved_by_restitution,
+                holds_to_s,
+                ..
+            } => {
+                let by = [
+                    ("width", *moved_by_width),
+                    ("scale", *moved_by_scale),
+                    ("restitution", moved_by_restitution.unwrap_or(0.0)),
+                ];
+                let (what, most) = by
+                    .into_iter()
+                    .fold(by[0], |most, other| if other.1 > most.1 { other } else { most });
+                let nowhere = match holds_to_s {
+                    Some(_) => "",
+                    None => ", but nowhere by a twentieth of its peak",
+                };
+                let most = percent(most);
+                format!("ill-conditioned: 0.1 % of {what} moves it by {most}{nowhere}")
+            }
+            Self::ForetoldUpTo { time_s, later_forces, .. } => format!(
+                "{}after t = {} a change of a millionth grows above a thousandth of the peak",
+                later(later_forces),
+                s(*time_s)
+            ),
+            Self::SlidesOn { time_s, later_forces, .. } => format!(
+                "{}a corner slides as it lands at t = {}: how far depends on friction",
+                later(later_forces),
+                s(*time_s)
+            ),
+            Self::NearMotions { motions, change, median_ratio, p90_ratio, overturned } => {
+                let cell = |x: Option<f64>| x.map_or("overturned".into(), percent);
+                let fallen = match overturned {
+                    [0, 0] => String::new(),
+                    [reference, springs] => format!("; {reference} and {springs} overturn"),
+                };
+                format!(
+                    "over {motions} motions within {} of the record the largest rotation is {} and \
+                        {} of overturning in the median, {} and {} for 90 % (rigid ground, \
+                        springs){fallen}",
+                    percent(*change),
+                    cell(median_ratio[0]),
+                    cell(median_ratio[1]),
+                    cell(p90_ratio[0]),
+                    cell(p90_ratio[1]),
+                )
+            }
+            _ => String::new(),
+        }
+    }
+
+    /// What the springs do not reach.
+    fn springs(&self) -> String {
+        match self {
+            Self::AccuracyMissed { asked, .. } => {
+                format!(
+                    "the accuracy asked for (history, NRMSE {}) was not reached",
+                    significant(*asked, 3)
+                )
+            }
+            Self::PeaksMissed { asked, .. } => {
+                format!("the accuracy asked for (peaks within {}) was not reached", percent(*asked))
+            }
+            Self::AccuracyNotMeasured => {
+                "the accuracy could not be measured: no motion tried rocks this structure and can \
+                    be predicted"
+                    .into()
+            }
+            Self::RestitutionMissed { asked, lowest, highest, .. } => format!(
+                "landings have a restitution of {} to {} where {} is due",
+                significant(*lowest, 4),
+                significant(*highest, 4),
+                significant(*asked, 4)
+            ),
+            Self::RestitutionOutOfReach { asked, share, least, most } => format!(
+                "restitution {} is {} of equation 2's; springs reach {} to {} of it",
+                significant(*asked, 4),
+                significant(*share, 3),
+                significant(*least, 3),
+                significant(*most, 3)
+            ),
+            Self::LandingsUnfinished { finished, all } => {
+                format!("{} of {all} test landings came to no end on these springs", all - finished)
+            }
+            Self::ForceWithheld {
+                force,
+                change: Some(change),
+                housner: Some(housner),
+                of_block,
+            } => {
+                let words = if *of_block { force.words_of_block() } else { force.words() };
+                format!(
+                    "{words} is withheld: between impacts it differs by {} on the springs from \
+                        Housner's {}",
+                    percent(*change),
+                    quantity(housner.abs(), force.unit())
+                )
+            }
+            Self::ForceWithheld { force, change, .. } => {
+                let by = change.map_or("could not be checked".into(), |change| {
+                    format!("varies {}", percent(change))
+                });
+                format!("{} is withheld: {by} with springs or mesh", force.words())
+            }
+            Self::ForcesHeldInPart { over_s, changes } => {
+                let later =
+                    changes.iter().map(|c| format!("{} {}", c.quantity, quantity(c.with, &c.unit)));
+                format!(
+                    "design forces are those of the first {} s: over the whole record they change \
+                        by 5 % or more with springs or mesh, and are here {}",
+                    significant(*over_s, 3),
+                    later.collect::<Vec<_>>().join(", ")
+                )
+            }
+            Self::ForcesAtRest { forces } => format!(
+                "{} {} largest at rest: the frame's own weight, with a vertical motion more of it, \
+                    half on each foot and no thrust between them; rocking adds nothing",
+                listed(forces),
+                if forces.len() == 1 { "is" } else { "are" }
+            ),
+            Self::MembersBeside => {
+                "springs are tuned for the structure without its dampers, tendon and friction"
+                    .into()
+            }
+            _ => String::new(),
+        }
+    }
+
+    /// What the search did not do.
+    fn effort(&self) -> String {
+        match self {
+            Self::SearchCut { by, not_done, stiffnesses, reached, asked } => {
+                let by = match by {
+                    CutBy::Work => "the bound on work",
+                    CutBy::TimeLimit => "the time limit",
+                    CutBy::Interrupt => "^C",
+                };
+                let missing: Vec<&str> = not_done.iter().map(|what| what.words()).collect();
+                let reached = match reached {
+                    Some(error) => format!(
+                        " after {stiffnesses} stiffness{}: error {}, asked {}",
+                        if *stiffnesses == 1 { "" } else { "es" },
+                        significant(*error, 3),
+                        significant(*asked, 3)
+                    ),
+                    None => ", no error was measured".into(),
+                };
+                format!("{by} ended the search{reached}; not done: {}", missing.join(", "))
+            }
+            Self::HistoriesUnfinished { histories, left_out } => {
+                let of = if *histories == 1 { "history" } else { "histories" };
+                let then =
+                    if *left_out { "their motions are left out" } else { "they count as lost" };
+                format!("{histories} {of} of the search met the bound on a history's steps: {then}")
+            }
+            Self::NearMotionsLeftOut { all: true, .. } => {
+                "motions near the record are left out: beyond a bound on steps".into()
+            }
+            Self::NearMotionsLeftOut { motions, .. } => {
+                format!(
+                    "{motions} motions near the record met the bound on a history's steps, and are \
+                        left out"
+                )
+            }
+            _ => String::new(),
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! The words of findings on whether the models hold.
+
+use super::{apart_words, on, s};
+use crate::findings::{Ending, Finding};
+use files::message::{percent, significant};
+
+/// Share of the weight below which the ground's force is said where friction is.
+const LIGHT: f64 = 0.5;
+
+impl Finding {
+    /// Whether the models hold.
+    pub(super) fn regime(&self) -> String {
+        match self {
+            Self::Sliding { needed, time_s, available, press_over_weight } => {
+                let when =
+                    time_s.map_or("in a landing".into(), |time| format!("at t = {}", s(time)));
+                let light = press_over_weight.filter(|share| *share < LIGHT);
+                let when = light.map_or(when.clone(), |share| {
+                    format!("{when}, under {} of the weight", percent(share))
+                });
+                format!(
+                    "the feet would slide: friction of {} is needed {when}, {} is available",
+                    significant(*needed, 3),
+                    significant(*available, 3)
+                )
+            }
+            Self::FreeFlight { time_s, .. } => {
+                format!(
+                    "free flight: the ground would have to pull the pivot down at t = {}",
+                    s(*time_s)
+                )
+            }
+            Self::TooStocky { restitution, friction_needed, .. } => format!(
+                "the body is too stocky to land without bouncing: friction of {} is needed, \
+                    equation 2 gives e = {}",
+                significant(*friction_needed, 3),
+                significant(*restitution, 3)
+            ),
+            Self::HistoryEndsEarly { model, time_s, ending } => {
+                let why = match ending {
+                    Ending::WorkBound => "the bound on steps was reached",
+                    Ending::Unstable => "the rotation lost its balance",
+                    Ending::Stopped => "it could not be followed further",
+                };
+                format!("the history {} ends at t = {}: {why}", on(*model), s(*time_s))
+            }
+            Self::FeetApart { apart_m, predictable } => format!(
+                "at the end the feet stand {} than at first{}: friction keeps the structure bent",
+                apart_words(*apart_m),
+                if *predictable { "" } else { " (not predictable)" }
+            ),
+            Self::SmallestSteps { model, steps } => {
+                format!(
+                    "{steps} steps of the history {} were taken at the smallest size, whatever \
+                        their error",
+                    on(*model)
+                )
+            }
+            _ => String::new(),
+        }
+    }
+}

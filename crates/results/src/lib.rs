@@ -1,0 +1,29 @@
+//! What a run found, as data: peaks, design forces, findings. Words for them are in `findings`
+//! alone; `report` lays them out.
+
+// what is printed goes through the program's `commands/terminal`
+#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
+
+pub mod findings;
+pub mod forces;
+pub mod peaks;
+
+pub use findings::{
+    DeckEnd, Ending, FiledFinding, Finding, FindingModel, ForceName, NotDone, NotToBeUsed,
+    PeakChange, ProgramAdvice, ProgramFault, Weight, apart_words,
+};
+pub use forces::{DesignForce, DesignForces};
+pub use frames::design_forces::{ForcesTogether, MOST_CHANGE, OtherForces};
+pub use peaks::{ForetoldPeaks, PartsOfTop, PeakPair, PeakTimes, Peaks};
+
+/// Up to when a motion can be foretold (s), if that is not all of it.
+pub fn predictable_to(findings: &[FiledFinding]) -> Option<f64> {
+    findings.iter().find_map(|filed| match filed.finding {
+        Finding::ForetoldUpTo { time_s, .. } | Finding::SlidesOn { time_s, .. } => Some(time_s),
+        Finding::IllConditioned { holds_to_s: Some(time_s), .. } => Some(time_s),
+        Finding::DeckJudged { judged_s, end: DeckEnd::Foretold | DeckEnd::Slides, .. } => {
+            Some(judged_s)
+        }
+        _ => None,
+    })
+}

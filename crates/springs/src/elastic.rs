@@ -1,0 +1,347 @@
+//! Springs of elastic structures: from what lands, as stiff as the accuracy asks for.
+//!
+//! ```text
+//!   structure -> finite elements -> standing: W, reactions -> springs at a give of the stance (`design`)
+//!                                -> releases, motions, record: the reference, its predictable part (`suite`, `trial`)
+//!   give = 10^(-i/10), the softest rung i that holds with the next above it
+//!                                -> the softest from there on that follow the record to where it grows a change 100,000-fold, if any does
+//! ```
+//!
+//! The accuracy is that of rotations against the reference (NRMSE, median); sways may have five
+//! times as much, and so may one history in ten. Or it is that of peaks: the largest displacement,
+//! drift, uplift and forces of columns (`elastic::peaks`), all alike; one history in ten may have
+//! five times as much. Forces are compared only then, for they need a second history of every
+//! motion, on springs at 4 Omega_n.
+
+pub mod at_once;
+pub mod design;
+mod error;
+pub mod program;
+pub mod referred;
+pub mod suite;
+pub mod trial;
+
+use std::collections::BTreeMap;
+
+pub use error::ElasticTuneError;
+
+use self::{
+    design::{CornerSprings, omega_n_hz, springs},
+    program::ElasticProgramSprings,
+    suite::{ElasticSuite, Measured},
+    trial::ElasticTrial,
+};
+use super::ladder::{DECADE, seek};
+use cases::{ACCURACY, Asked, PEAKS, Yardstick};
+use dynamics::{
+    effort::{CutBy, Effort},
+    fem::Control,
+};
+use fixed_steps::FixedStepProgram;
+use frames::{
+    answer::Reference, assembled::Assembled, fem::default_control, standing::Standing,
+    structure::ElasticStructure,
+};
+use results::{Finding, NotDone};
+use strong_motion::Record;
+
+/// Units of work that a search may take unless told otherwise: about a minute and a half on two
+/// cores.
+pub const MOST_WORK: u64 = 240_000_000;
+/// Share of the accuracy asked for that is aimed at.
+const MARGIN: f64 = 0.7;
+/// Rungs: a give of 0.1 to 1e-8.
+const RUNGS: (i64, i64) = (10, 80);
+/// Give over accuracy where the search begins.
+const BEGIN: f64 = 0.1;
+/// Share of the balanced K that is tried where that one does not hold.
+const QUIETER: f64 = 0.3;
+/// Rungs above the softest that hold the accuracy at which the search begins for those that follow
+/// the record further: a tenth of the give.
+const STIFFER: i64 = 10;
+
+/// Springs of an elastic structure and what was measured of them.
+#[derive(Clone, Debug)]
+pub struct ElasticTuned {
+    pub springs: CornerSprings,
+    pub measured: Measured,
+    /// Whether the accuracy asked for is reached; not if there was nothing to measure it on:
+    /// springs are then those that the search would begin with.
+    pub reached: bool,
+    /// The reference on the record, with as much of it as these springs hold the accuracy over;
+    /// none without a record.
+    pub reference: Option<Reference>,
+    /// Omega_n/2 pi of softer springs that hold the accuracy, too, but follow the record less far
+    /// (Hz).
+    pub softer_hz: Option<f64>,
+    /// Rungs judged.
+    pub stiffnesses: usize,
+    /// What cut the search, if anything was left out of it, and what that is.
+    pub cut: Option<CutBy>,
+    pub not_done: Vec<NotDone>,
+    /// Histories on springs that met their own bound on steps.
+    pub unfinished: usize,
+    /// Releases and motions left out since their reference met the bound on its work.
+    pub out_of_work: usize,
+    /// Springs for a program with fixed time steps.
+    pub program: Option<ElasticProgramSprings>,
+}
+
+impl ElasticTuned {
+    /// What of the search was cut or not followed to its end.
+    pub fn findings(&self, asked: Asked) -> Vec<Finding> {
+        let reached = self.measured.over(asked).map(|over| over * asked.error);
+        let cut = self.cut.filter(|_| !self.not_done.is_empty()).map(|by| Finding::SearchCut {
+            by,
+            not_done: self.not_done.clone(),
+            stiffnesses: self.stiffnesses,
+            reached: reached.filter(|error| error.is_finite()),
+            asked: asked.error,
+        });
+        let unfinished = |histories: usize, left_out: bool| {
+            (histories > 0).then_some(Finding::HistoriesUnfinished { histories, left_out })
+        };
+        cut.into_iter()
+            .chain(unfinished(self.unfinished, false))
+            .chain(unfinished(self.out_of_work, true))
+            .collect()
+    }
+}
+
+/// What is asked of springs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ElasticAsked {
+    /// NRMSE of rotations, or an error of peaks.
+    pub error: Asked,
+    /// Stiffest allowed, Omega_n/2 pi (Hz).
+    pub most_hz: Option<f64>,
+    /// The program with fixed time steps that springs are made for besides.
+    pub program: FixedStepProgram,
+}
+
+impl ElasticAsked {
+    /// An error alone; the program is the usual one.
+    pub fn of(error: Asked) -> Self {
+        Self { error, most_hz: None, program: FixedStepProgram::usual() }
+    }
+}
+
+/// Springs under every corner of a structure, its members at work, as stiff as what is asked for
+/// needs, within an effort; what that cuts is told, with the best springs so far. `progress` is
+/// told the rungs judged and the least error so far.
+///
+/// # Errors
+/// A structure that does not stand; an accuracy that is none; springs allowed that are too soft for
+/// any.
+pub fn tune_within(
+    model: &Assembled,
+    ElasticAsked { error: asked, most_hz, program }: ElasticAsked,
+    record: Option<(&Record, Reference)>,
+    effort: &Effort,
+    progress: &dyn Fn(usize, f64),
+) -> Result<ElasticTuned, ElasticTuneError> {
+    checked(asked)?;
+    let standing = stand(model).ok_or(ElasticTuneError::Falls)?;
+    let landing = landing_speed(&model.structure);
+    let rungs = Rungs::new(asked.error, most_hz, |i| omega_n_hz(&standing, give(i)))?;
+    let (record, reference) = record.unzip();
+    let suite =
+        ElasticSuite::within(model.clone(), record.zip(reference.as_ref()), effort).by(asked.by);
+    let out_of_work = suite.out_of_work;
+    let program = ElasticProgramSprings::measured(&suite, program, &model.structure.body(), effort);
+    let of = |i: i64, share: f64| springs(&standing, give(i), landing, share);
+    let measure =
+        |springs: &CornerSprings| suite.measure_within(springs, (Control::search(), effort));
+    let chosen = rungs.search(asked, of, &measure, effort, progress);
+    let mut not_done = Vec::new();
+    if effort.cut().is_some() {
+        not_done.push(NotDone::Stiffnesses);
+    }
+    let further = || {
+        let (record, reference) = record.zip(reference.as_ref()).filter(|_| chosen.reached)?;
+        let reference = reference.further(model, record).ok()??;
+        if effort.stops() {
+            not_done.push(NotDone::Further);
+            return None;
+        }
+        let record = ElasticTrial::beside(model, record, &reference).trial();
+        let suite = ElasticSuite { record, ..suite };
+        let stiffer = Rungs {
+            ends: (chosen.rung, rungs.ends.1),
+            guess: (chosen.rung + STIFFER).min(rungs.ends.1),
+        };
+        // the record decides; all else is measured once
+        let alone = |springs: &CornerSprings| suite.measure_record(springs, effort);
+        let found = stiffer.search(asked, of, &alone, effort, progress);
+        if effort.stops() {
+            not_done.push(NotDone::Further);
+            return None;
+        }
+        let rest = ElasticSuite { record: None, ..suite }
+            .measure_within(&found.springs, (default_control(), effort));
+        let measured = Measured { record: found.measured.record, ..rest };
+        let reached = found.reached && measured.over(asked)? <= 1.0;
+        reached.then_some((ElasticRung { measured, ..found }, reference))
+    };
+    let (chosen, reference, softer_hz) = match further() {
+        Some((found, reference)) => {
+            let softer =
+                Some(chosen.springs.omega_n_hz).filter(|hz| *hz < found.springs.omega_n_hz);
+            (found, Some(reference), softer)
+        }
+        None => (chosen, reference, None),
+    };
+    let ElasticRung { springs, measured, reached, judged: stiffnesses, .. } = chosen;
+    let (cut, unfinished) = (effort.cut(), effort.unfinished());
+    Ok(ElasticTuned {
+        springs,
+        measured,
+        reached,
+        reference,
+        softer_hz,
+        stiffnesses,
+        cut,
+        not_done,
+        unfinished,
+        out_of_work,
+        program,
+    })
+}
+
+/// Whether this can be asked of springs.
+fn checked(asked: Asked) -> Result<(), ElasticTuneError> {
+    let (key, limits) = match asked.by {
+        Yardstick::Histories => ("tuning.accuracy", ACCURACY),
+        Yardstick::Peaks => ("tuning.peaks", PEAKS),
+    };
+    limits.check(asked.error).map_err(|(value, remedy)| ElasticTuneError::Accuracy {
+        key,
+        value,
+        remedy,
+    })?;
+    Ok(())
+}
+
+/// What a search of the ladder comes to.
+#[derive(Clone, Debug)]
+struct ElasticRung {
+    rung: i64,
+    springs: CornerSprings,
+    measured: Measured,
+    reached: bool,
+    /// Rungs judged.
+    judged: usize,
+}
+
+/// The ladder of springs that may be chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Rungs {
+    /// Softest and stiffest.
+    ends: (i64, i64),
+    /// Where the search begins.
+    guess: i64,
+}
+
+impl Rungs {
+    /// For an accuracy, up to a frequency; `hz` is that of a rung (Hz).
+    fn new(
+        accuracy: f64,
+        most_hz: Option<f64>,
+        hz: impl Fn(i64) -> f64,
+    ) -> Result<Self, ElasticTuneError> {
+        let (softest, stiffest) = RUNGS;
+        let softest_hz = hz(softest);
+        if let Some(most_hz) = most_hz.filter(|hz| *hz < softest_hz) {
+            return Err(ElasticTuneError::TooSoft { most_hz, softest_hz });
+        }
+        // Omega_n^2 goes as 1/give
+        let allowed = |hz: f64| softest + (2.0 * DECADE * (hz / softest_hz).log10()).floor() as i64;
+        let stiffest = most_hz.map_or(stiffest, |hz| allowed(hz).min(stiffest));
+        let guess = (-DECADE * (BEGIN * accuracy).log10()).round() as i64;
+        Ok(Self { ends: (softest, stiffest), guess: guess.clamp(softest, stiffest) })
+    }
+
+    /// The softest that hold what is asked for, by what is measured of them; `springs` of a rung,
+    /// at a share of the balanced K.
+    fn search(
+        &self,
+        asked: Asked,
+        springs: impl Fn(i64, f64) -> CornerSprings,
+        measure: &dyn Fn(&CornerSprings) -> Measured,
+        effort: &Effort,
+        progress: &dyn Fn(usize, f64),
+    ) -> ElasticRung {
+        let allowed = asked.times(MARGIN);
+        // where springs at the balance of K do not hold, ones with less rebound may: a corner that
+        // leaves as soon as it has landed keeps it
+        let judged = |i: i64| {
+            let of = |share: f64| {
+                let springs = springs(i, share);
+                let measured = measure(&springs);
+                (springs, measured)
+            };
+            let over =
+                |(_, measured): &(CornerSprings, Measured)| measured.over(allowed).unwrap_or(0.0);
+            let balanced = of(1.0);
+            if over(&balanced) <= 1.0 {
+                return balanced;
+            }
+            let quieter = of(QUIETER);
+            if over(&quieter) < over(&balanced) { quieter } else { balanced }
+        };
+        let mut seen: BTreeMap<i64, (CornerSprings, Measured)> = BTreeMap::new();
+        let mut judge = |i: i64| {
+            if let Some((_, measured)) = seen.get(&i) {
+                return measured.over(allowed);
+            }
+            // the first rung is judged whatever it costs: its histories have bounds of their own
+            if effort.stopped() || !seen.is_empty() && effort.stops() {
+                return None;
+            }
+            let found = judged(i);
+            // a rung half judged is none
+            if effort.stopped() {
+                return None;
+            }
+            let over = seen.entry(i).or_insert(found).1.over(allowed)?;
+            let least =
+                seen.values().filter_map(|(_, m)| m.over(allowed)).fold(f64::INFINITY, f64::min);
+            progress(seen.len(), least * allowed.error);
+            Some(over)
+        };
+        let found = seek(self.ends.0, self.ends.1, self.guess, &mut judge);
+        // cut: the best so far; else there is nothing to measure springs on
+        let over = |i: &i64| seen[i].1.over(allowed).unwrap_or(f64::INFINITY);
+        let best = seen.keys().copied().min_by(|a, b| over(a).total_cmp(&over(b)));
+        let rung = found.map(|found| found.rung).or(best).unwrap_or(self.guess);
+        let stiffnesses = seen.len();
+        let unmeasured = || match effort.cut() {
+            Some(_) => (springs(rung, 1.0), Measured::default()),
+            None => judged(rung),
+        };
+        let (springs, measured) = seen.remove(&rung).unwrap_or_else(unmeasured);
+        // by what was asked for, not by the margin that is aimed at
+        let known = found.is_some() || effort.cut().is_some();
+        let reached = known && measured.over(asked).is_some_and(|over| over <= 1.0);
+        ElasticRung { rung, springs, measured, reached, judged: stiffnesses }
+    }
+}
+
+/// The structure as it stands on rigid ground.
+pub fn stand(model: &Assembled) -> Option<Standing> {
+    Standing::new(&model.frame, &model.upright().ok()?)
+}
+
+/// Speed at which a corner lands that fell from half of what overturns, 2b p alpha sqrt(3)/2 (m/s).
+pub fn landing_speed(structure: &ElasticStructure) -> f64 {
+    let body = structure.body();
+    2.0 * body.half_width * body.p_squared().sqrt() * body.alpha() * 0.75_f64.sqrt()
+}
+
+/// Give of a rung.
+fn give(i: i64) -> f64 {
+    10f64.powf(-i as f64 / DECADE)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,43 @@
+//! Springs of an elastic structure before anything is searched: those that the search would begin
+//! with.
+
+use super::{
+    ElasticTuneError, ElasticTuned, Rungs,
+    design::{CornerSprings, omega_n_hz, springs},
+    give, landing_speed, stand,
+    suite::Measured,
+};
+use cases::Asked;
+use frames::assembled::Assembled;
+
+/// Springs within milliseconds, by the accuracy asked for; no history is looked at.
+///
+/// # Errors
+/// A structure that does not stand.
+pub fn springs_of_structure(
+    model: &Assembled,
+    asked: Asked,
+) -> Result<CornerSprings, ElasticTuneError> {
+    let standing = stand(model).ok_or(ElasticTuneError::Falls)?;
+    let rungs = Rungs::new(asked.error, None, |i| omega_n_hz(&standing, give(i)))?;
+    Ok(springs(&standing, give(rungs.guess), landing_speed(&model.structure), 1.0))
+}
+
+impl ElasticTuned {
+    /// Springs of which nothing is measured.
+    pub fn unmeasured(springs: CornerSprings) -> Self {
+        Self {
+            springs,
+            measured: Measured::default(),
+            reached: false,
+            reference: None,
+            softer_hz: None,
+            stiffnesses: 0,
+            cut: None,
+            not_done: Vec::new(),
+            unfinished: 0,
+            out_of_work: 0,
+            program: None,
+        }
+    }
+}

@@ -1,0 +1,178 @@
+//! Springs of elastic structures for programs with fixed time steps.
+//!
+//! ```text
+//!   k_e  12 (M/n) p/(alpha^2 dt)   vertical, both springs of a unit in series; n bases;
+//!                                  M, p, alpha of the rigid body of the same size
+//!   K    1/4, or 1/10              units of what lands at a corner (`landing::part`)
+//! ```
+//!
+//! The stance is that of the recipe (`fixed_steps::recipe`): the structure's own give is not
+//! the springs'. Which K is better depends on what lands, the step and the integrator: both are
+//! stepped as the program does, on the motions that the structure's other springs are judged on and
+//! on the record, and the one is kept that loses fewer of them, then the one that errs less.
+
+use rayon::prelude::*;
+
+use super::{
+    design::{CornerSprings, with_vertical},
+    stand,
+    suite::ElasticSuite,
+    trial::ElasticTrial,
+};
+use crate::fixed_steps::LONGEST;
+use dynamics::{
+    effort::Effort,
+    spring::{Chain, Springs},
+};
+use fixed_steps::{
+    FixedStepAnalysis, FixedStepFrame, FixedStepFrameHistory, FixedStepOutcome, FixedStepProgram,
+    StepSettings,
+    expected::FLOOR,
+    measured::{ErrorsOverMotions, StepErrors},
+    recipe::FixedStepDesign,
+};
+use frames::{
+    assembled::{Assembled, errors},
+    peaks::StructurePeaks,
+    standing::Standing,
+};
+use rocking::structure::Body;
+
+/// Times as long a step as a program's usual one, tried where it loses most motions.
+const LONGER: [f64; 3] = [2.0, 4.0, 8.0];
+/// K of the units that are tried.
+const TRIED: [f64; 2] = [0.25, 0.1];
+
+/// Springs for a structure in a program, and what they err.
+#[derive(Clone, Debug)]
+pub struct ElasticProgramSprings {
+    /// The program.
+    pub program: FixedStepProgram,
+    /// Under every corner.
+    pub springs: CornerSprings,
+    /// How the program is to step.
+    pub settings: StepSettings,
+    /// 13 p dt of the rigid body of the same size.
+    pub floor: f64,
+    /// Measured on the suite's motions and the record, as far as these can be foretold: of
+    /// rotations, and of the displacement, drift or uplift that errs most. None of a step too long
+    /// to promise anything, or if there is nothing to measure on.
+    pub measured: Option<ErrorsOverMotions>,
+}
+
+impl ElasticProgramSprings {
+    /// Of a structure, measured on its suite; none if it does not stand. Where a step that nobody
+    /// gave loses most motions, the first longer one that does not.
+    pub(crate) fn measured(
+        suite: &ElasticSuite,
+        program: FixedStepProgram,
+        body: &Body<f64>,
+        effort: &Effort,
+    ) -> Option<Self> {
+        let first = Self::at_step(suite, program, body, effort)?;
+        if program.step_is_given || !first.loses_most() {
+            return Some(first);
+        }
+        let longer = |times: f64| {
+            let step = times * program.step;
+            Self::at_step(suite, FixedStepProgram { step, ..program }, body, effort)
+        };
+        let mut others = LONGER.into_iter().map_while(longer);
+        Some(others.find(|found| found.measured.is_some() && !found.loses_most()).unwrap_or(first))
+    }
+
+    /// Whether the program loses half of the motions or more.
+    fn loses_most(&self) -> bool {
+        self.measured.as_ref().is_some_and(|errors| !errors.quantile(0.5).is_finite())
+    }
+
+    fn at_step(
+        suite: &ElasticSuite,
+        program: FixedStepProgram,
+        body: &Body<f64>,
+        effort: &Effort,
+    ) -> Option<Self> {
+        let standing = stand(&suite.model)?;
+        let first = Self::at(&standing, TRIED[0], program, body);
+        if body.p_squared().sqrt() * program.step > LONGEST {
+            return Some(first);
+        }
+        let mut best: Option<Self> = None;
+        for k in TRIED {
+            if effort.stopped() {
+                break;
+            }
+            let mut springs = Self::at(&standing, k, program, body);
+            springs.measured = springs.errors(suite, effort);
+            if best.as_ref().is_none_or(|best| springs.rank() < best.rank()) {
+                best = Some(springs);
+            }
+        }
+        Some(best.unwrap_or(first))
+    }
+
+    fn at(standing: &Standing, k: f64, program: FixedStepProgram, body: &Body<f64>) -> Self {
+        let springs = for_step(standing, k, program.step, body);
+        let k1 = springs.corners.iter().map(|corner| corner.vertical.k1).fold(0.0, f64::max);
+        let settings = program.settings(k1, standing.mass);
+        let floor = FLOOR * body.p_squared().sqrt() * program.step;
+        Self { program, springs, settings, floor, measured: None }
+    }
+
+    /// Lost motions, then the median of rotations.
+    fn rank(&self) -> (usize, f64) {
+        self.measured.as_ref().map_or((0, 0.0), |errors| (errors.lost(), errors.quantile(0.5)))
+    }
+
+    fn errors(&self, suite: &ElasticSuite, effort: &Effort) -> Option<ErrorsOverMotions> {
+        let shaken = |trial: &&ElasticTrial| trial.lean.is_none();
+        let trials: Vec<&ElasticTrial> =
+            suite.motions.iter().chain(&suite.record).filter(shaken).collect();
+        let one = |trial: &&ElasticTrial| {
+            if effort.stopped() {
+                return None;
+            }
+            stepped(&suite.model, &self.springs.corners, self.settings, trial)
+        };
+        let all: Vec<Option<StepErrors>> = trials.par_iter().with_max_len(1).map(one).collect();
+        let all: Vec<StepErrors> = all.into_iter().flatten().collect();
+        (!all.is_empty()).then(|| ErrorsOverMotions::of(all))
+    }
+}
+
+/// Springs for a step (s), at K.
+fn for_step(standing: &Standing, k: f64, step: f64, body: &Body<f64>) -> CornerSprings {
+    let (p, bases) = (body.p_squared().sqrt(), standing.footings.len().max(1) as f64);
+    let stance = FixedStepDesign::RECIPE.stance;
+    let in_series = stance * standing.mass / bases * p / (body.alpha().powi(2) * step);
+    with_vertical(standing, in_series * (1.0 + k) / k, k)
+}
+
+/// Springs for the substeps at touches of a structure whose springs for the program are at K, the
+/// substep in s; none if the structure does not stand.
+pub fn for_substep(model: &Assembled, k: f64, substep: f64) -> Option<CornerSprings> {
+    Some(for_step(&stand(model)?, k, substep, &model.structure.body()))
+}
+
+/// A history of the structure in a program beside the reference's.
+fn stepped(
+    model: &Assembled,
+    springs: &[Springs<Chain>],
+    settings: StepSettings,
+    trial: &ElasticTrial,
+) -> Option<StepErrors> {
+    let frame = FixedStepFrame::new(&model.frame, springs).ok()?;
+    let analysis = FixedStepAnalysis::new(&frame, settings, trial.dt, &trial.accel);
+    let analysis = FixedStepAnalysis { vertical: &trial.vertical, ..analysis };
+    let FixedStepFrameHistory { coordinates, outcome, work } = analysis.history().ok()?;
+    let lost = StepErrors { outcome, history: f64::INFINITY, peak: f64::INFINITY, work };
+    if outcome != FixedStepOutcome::Finished {
+        return Some(lost);
+    }
+    let sways = model.sways(coordinates.iter().map(Vec::as_slice));
+    let [rotations, _] = errors(&trial.reference, &sways, trial.accel.len());
+    let peak = StructurePeaks::of(model, coordinates.iter().map(Vec::as_slice))
+        .beside(&trial.peaks)
+        .largest();
+    Some(StepErrors { history: rotations, peak, ..lost })
+}

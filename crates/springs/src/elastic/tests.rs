@@ -1,0 +1,100 @@
+use super::*;
+use crate::elastic::suite::ElasticErrors;
+
+fn springs(i: i64, share: f64) -> CornerSprings {
+    CornerSprings {
+        corners: Vec::new(),
+        k: 0.1 * share,
+        give: give(i),
+        omega_n_hz: 2.0 / give(i).sqrt(),
+    }
+}
+
+fn hz(i: i64) -> f64 {
+    springs(i, 1.0).omega_n_hz
+}
+
+#[test]
+fn springs_softer_than_any_rung_are_refused_and_others_bound_the_search() {
+    let softest = hz(RUNGS.0);
+    let refused = Rungs::new(0.002, Some(0.9 * softest), hz).unwrap_err();
+    assert!(
+        matches!(refused, ElasticTuneError::TooSoft { softest_hz, .. } if softest_hz == softest),
+        "{refused}"
+    );
+    for most in [softest, 1.5 * softest, 1e3 * softest] {
+        let rungs = Rungs::new(1e-5, Some(most), hz).unwrap();
+        assert!(
+            hz(rungs.ends.1) <= most * (1.0 + 1e-12) && hz(rungs.ends.1 + 1) > most,
+            "{most} {rungs:?}"
+        );
+        assert!(rungs.guess <= rungs.ends.1);
+    }
+    assert_eq!(Rungs::new(0.002, None, hz).unwrap(), Rungs { ends: RUNGS, guess: 37 });
+}
+
+/// Errors of a tenth of the give, as good as asked at 0.7 times 0.002.
+#[test]
+fn the_softest_springs_that_hold_are_taken() {
+    let errors = |give: f64| {
+        let error = [0.1 * give; 2];
+        Measured {
+            releases: Some(ElasticErrors {
+                median: error,
+                p90: error,
+                count: 1,
+                touches: 2.0,
+                peaks: None,
+            }),
+            ..Measured::default()
+        }
+    };
+    let rungs = Rungs::new(0.002, None, hz).unwrap();
+    let tuned = rungs.search(
+        Asked::new(0.002, None),
+        springs,
+        &|springs| errors(springs.give),
+        &Effort::unbounded(),
+        &|_, _| (),
+    );
+    assert!(
+        tuned.reached && tuned.springs.give <= 0.014 && tuned.springs.give > 0.011,
+        "{tuned:?}"
+    );
+}
+
+/// Those at the balance of K leave a landing too fast, whatever their stiffness.
+#[test]
+fn springs_with_less_rebound_are_tried_where_the_balanced_ones_do_not_hold() {
+    let errors = |springs: &CornerSprings| {
+        let error = [0.1 * springs.give + 0.02 * springs.k; 2];
+        Measured {
+            releases: Some(ElasticErrors {
+                median: error,
+                p90: error,
+                count: 1,
+                touches: 2.0,
+                peaks: None,
+            }),
+            ..Measured::default()
+        }
+    };
+    let rungs = Rungs::new(0.002, None, hz).unwrap();
+    let tuned =
+        rungs.search(Asked::new(0.002, None), springs, &errors, &Effort::unbounded(), &|_, _| ());
+    assert!(tuned.reached && tuned.springs.k < 0.05, "{tuned:?}");
+}
+
+#[test]
+fn springs_that_nothing_could_be_measured_on_have_not_reached_the_accuracy() {
+    let rungs = Rungs::new(0.002, None, hz).unwrap();
+    let tuned = rungs.search(
+        Asked::new(0.002, None),
+        springs,
+        &|_| Measured::default(),
+        &Effort::unbounded(),
+        &|_, _| panic!("nothing to tell"),
+    );
+    assert!(!tuned.reached && tuned.measured.nothing());
+    assert_eq!(tuned.springs, springs(37, 1.0));
+}

@@ -1,0 +1,334 @@
+//! Springs for programs with fixed time steps: units for the body's own landing, as stiff and with
+//! as little rebound as the step has use for.
+//!
+//! ```text
+//!   error of a history   floor    13 p dt
+//!                        stance   80 (p/(alpha Omega_e))^2
+//!                        rebound  20 alpha^3 (v_r/v_n)^2,   v_r/v_n about 0.8 K
+//!
+//!   stance  = floor/2, or more  ->  k_e = k1 K/(1 + K) = 12 m p/(alpha^2 dt), or 9, 7, 4 of it
+//!   rebound = floor/2           ->  K = sqrt(13 p dt/(2 20 0.8^2 alpha^3)),  at most 1/4
+//!   units   mu = mu_u(K) M,  C = C_u(K) sqrt(M)  of what lands (`landing::design`)
+//!           Omega_h/Omega_v at least 4, more under stocky frames
+//! ```
+//!
+//! The floor is what springs cannot go below (`fixed_steps::expected`). How stiff the stance is
+//! decides two things against each other: an iteration gives up the more often, and short steps of
+//! stocky bodies err the more, the stiffer it is (`cargo bench --bench fixed_steps -- stance`); and
+//! a body sways on it before it lifts, on earthquake-like motions most. Both are measured: springs
+//! are stepped as the program does, on the synthetic motions that a run's other springs are judged
+//! on. Stances are tried from the stiffest on. One will do if nearly all histories come through and
+//! their median error is at most 1.7 times the floor; the first that will do is taken. Where a user
+//! asks for a program, the one of these is taken whose peaks err least on earthquake-like motions,
+//! and a stance of 48 is tried, too, if the integrator ends stiff modes. What is told of the
+//! springs on synthetic motions is then measured on 48 that chose nothing.
+
+use rayon::prelude::*;
+
+use super::{
+    landing_simulation::differs_from_housner,
+    suite::{JudgedOn, Suites},
+};
+use cases::Case;
+use dynamics::{
+    effort::Effort,
+    spring::{Design, Springs},
+};
+use fixed_steps::{
+    ExpectedError, FixedStepBody, FixedStepDesign, FixedStepProgram, FixedStepSprings,
+    expected::{FLOOR, REBOUND},
+    measured::{ErrorsOverMotions, ReferenceHistory},
+    recipe::{FixedStepSpringsError, UnitNumbers},
+};
+use landing::{corners::CornerDynamics, design::for_landing};
+use rocking::structure::Body;
+
+/// Rebound v_r/v_n over K, of the universal chain.
+const REBOUND_OVER_K: f64 = 0.8;
+/// K at most: the body that lands in long steps.
+const LARGEST_K: f64 = 0.25;
+/// K at least: below it an absorber comes back late.
+const LEAST_K: f64 = 0.02;
+/// k_e alpha^2 dt/(m p): the stances that are tried.
+pub const STANCES: [f64; 4] = [12.0, 9.0, 7.0, 4.0];
+/// The same for earthquake-like motions: twice the first's Omega_n.
+pub const STIFFEST: f64 = 48.0;
+/// Median error that springs may have, over the floor.
+const OVER_FLOOR: f64 = 1.7;
+/// Where a user asks for a program, so many synthetic motions more choose the springs, and others
+/// tell what they err.
+const ALSO_CHOOSE: usize = 24;
+/// p dt up to which an error is told.
+pub const LONGEST: f64 = 0.03;
+/// Histories that a program is to get through, of all.
+pub const THROUGH: f64 = 0.95;
+/// The same with an integrator that ends stiff modes.
+const THROUGH_IF_ENDED: f64 = 0.99;
+
+/// The design for a body and a step (s).
+pub fn design(body: &Body<f64>, step: f64) -> FixedStepDesign {
+    let floor = FLOOR * body.p_squared().sqrt() * step;
+    let k = (floor / (2.0 * REBOUND * body.alpha().powi(3))).sqrt() / REBOUND_OVER_K;
+    let corners = CornerDynamics::rigid(body.alpha(), body.mass_share());
+    let effective = 1.0 - body.mass_share() * body.alpha().sin().powi(2);
+    let Springs { vertical, horizontal } =
+        for_landing(&corners, effective, k.clamp(LEAST_K, LARGEST_K));
+    let numbers = |unit: &Design<f64>| UnitNumbers { k: unit.k(), c: unit.c(), mu: unit.mu };
+    FixedStepDesign {
+        stance: STANCES[0],
+        vertical: numbers(&vertical),
+        horizontal: numbers(&horizontal),
+        horizontal_over_vertical: horizontal.omega_n_hz / vertical.omega_n_hz,
+    }
+}
+
+/// Springs for a body in a program, and what they err.
+#[derive(Clone, Debug)]
+pub struct ProgramSprings {
+    /// The program.
+    pub program: FixedStepProgram,
+    /// The springs, and the body as both models are to have it.
+    pub springs: FixedStepSprings,
+    /// The parts of the error, in closed form.
+    pub expected: ExpectedError,
+    /// Measured on synthetic motions; none of a step too long to promise anything, or if the run
+    /// was stopped before.
+    pub synthetic: Option<ErrorsOverMotions>,
+    /// Measured on earthquake-like motions, if it was asked for.
+    pub earthquakes: Option<ErrorsOverMotions>,
+    /// Whether stiffer springs were taken, for what they do on earthquake-like motions.
+    pub stiffer: bool,
+}
+
+/// Motions, and Housner's answers of the body as the program has it.
+struct ProgramSuites {
+    /// Those that choose the springs.
+    synthetic: Vec<ReferenceHistory>,
+    earthquakes: Vec<ReferenceHistory>,
+    /// Synthetic motions that choose nothing.
+    others: Vec<ReferenceHistory>,
+}
+
+impl ProgramSuites {
+    /// The synthetic motions of a run's suites; all the rest only where a user asked.
+    fn of(body: &Body<f64>, suites: &Suites, asked: bool, effort: &Effort) -> Self {
+        let of = |suites: &Suites, on: JudgedOn| -> Vec<ReferenceHistory> {
+            let motions: Vec<_> = suites.motions(on).collect();
+            let answers = motions
+                .into_par_iter()
+                .map(|(dt, accel)| ReferenceHistory::new(body, dt, accel.to_vec()));
+            answers.flatten().collect()
+        };
+        let mut synthetic = of(suites, JudgedOn::Synthetic);
+        if !asked {
+            return Self { synthetic, earthquakes: Vec::new(), others: Vec::new() };
+        }
+        let mut more = of(&suites.more(body.restitution(), effort), JudgedOn::Synthetic);
+        let others = more.split_off(ALSO_CHOOSE.min(more.len()));
+        synthetic.append(&mut more);
+        Self { synthetic, earthquakes: of(suites, JudgedOn::Earthquakes), others }
+    }
+}
+
+impl ProgramSprings {
+    /// Springs for the program that a case asks for, or for the usual one; none for a restitution
+    /// other than equation 2's, which such springs do not have.
+    pub(crate) fn of_case(
+        case: &Case,
+        body: &Body<f64>,
+        suites: &Suites,
+        effort: &Effort,
+    ) -> Option<Self> {
+        if differs_from_housner(body, case.restitution) {
+            return None;
+        }
+        let program = case.program.unwrap_or_else(FixedStepProgram::usual);
+        Self::measured(body, program, suites, case.program.is_some(), effort).ok()
+    }
+
+    /// Springs for a body, measured on the synthetic motions of its suites; if a user asked for
+    /// this program, on more of them that did not choose the springs, and on the earthquake-like
+    /// ones.
+    ///
+    /// # Errors
+    /// A step that is none; an integrator that is unstable.
+    pub fn measured(
+        body: &Body<f64>,
+        program: FixedStepProgram,
+        suites: &Suites,
+        asked: bool,
+        effort: &Effort,
+    ) -> Result<Self, FixedStepSpringsError> {
+        let own = design(body, program.step);
+        let of = |stance| Self::closed_form(body, program, FixedStepDesign { stance, ..own });
+        let first = of(STANCES[0])?;
+        if body.p_squared().sqrt() * program.step > LONGEST || effort.stopped() {
+            return Ok(first);
+        }
+        let motions = ProgramSuites::of(&first.springs.body, suites, asked, effort);
+        let stiffest = (asked && program.integrator.ends_stiff_modes()).then_some(STIFFEST);
+        let mut best: Option<Self> = None;
+        for stance in stiffest.into_iter().chain(STANCES) {
+            if effort.stopped() {
+                break;
+            }
+            let mut tried = Self { stiffer: stance == STIFFEST, ..of(stance)? };
+            tried.synthetic = tried.errors(&motions.synthetic);
+            let will_do = tried.will_do();
+            if will_do {
+                tried.earthquakes = tried.errors(&motions.earthquakes);
+            }
+            if best.as_ref().is_none_or(|best| tried.rank() < best.rank()) {
+                best = Some(tried);
+            }
+            if will_do && !asked {
+                break;
+            }
+        }
+        let mut found = best.unwrap_or(first);
+        if asked && !effort.stopped() {
+            if found.earthquakes.is_none() {
+                found.earthquakes = found.errors(&motions.earthquakes);
+            }
+            // few of them would tell less than those that chose
+            if motions.others.len() >= ALSO_CHOOSE {
+                found.synthetic = found.errors(&motions.others);
+            }
+        }
+        Ok(found)
+    }
+
+    fn closed_form(
+        body: &Body<f64>,
+        program: FixedStepProgram,
+        design: FixedStepDesign,
+    ) -> Result<Self, FixedStepSpringsError> {
+        let FixedStepProgram { step, integrator, .. } = program;
+        let springs = FixedStepSprings::designed(body, step, integrator, &design)?;
+        let expected = springs.expected();
+        Ok(Self { program, springs, expected, synthetic: None, earthquakes: None, stiffer: false })
+    }
+
+    /// Whether nearly all synthetic motions come through and err as little as the step allows.
+    fn will_do(&self) -> bool {
+        let ended = self.program.integrator.ends_stiff_modes();
+        let through = if ended { THROUGH_IF_ENDED } else { THROUGH };
+        self.synthetic.as_ref().is_none_or(|errors| {
+            share_lost(errors) <= 1.0 - through && self.over_limit(errors) <= 1.0
+        })
+    }
+
+    /// The median over the largest that springs may have.
+    fn over_limit(&self, errors: &ErrorsOverMotions) -> f64 {
+        errors.quantile(0.5) / (OVER_FLOOR * self.expected.floor)
+    }
+
+    /// By which springs are compared, the least first: those that will do by their peaks on
+    /// earthquake-like motions; then others by how far they are from it.
+    fn rank(&self) -> (usize, f64) {
+        match (&self.synthetic, &self.earthquakes) {
+            (Some(errors), _) if !self.will_do() => {
+                (1, (share_lost(errors) / (1.0 - THROUGH)).max(self.over_limit(errors)))
+            }
+            (_, Some(errors)) => (0, errors.peak_quantile(0.5)),
+            _ => (0, 0.0),
+        }
+    }
+
+    /// Errors of the springs in the program; none of no motions.
+    fn errors(&self, motions: &[ReferenceHistory]) -> Option<ErrorsOverMotions> {
+        let springs = &self.springs;
+        let model = FixedStepBody::new(&springs.body, &springs.chains());
+        let settings = self.program.settings(springs.chains().vertical.k1, springs.body.mass);
+        let all = motions.par_iter().map(|motion| motion.errors(&model, settings));
+        let all: Vec<_> = all.collect();
+        (!all.is_empty()).then(|| ErrorsOverMotions::of(all))
+    }
+}
+
+fn share_lost(errors: &ErrorsOverMotions) -> f64 {
+    errors.lost() as f64 / errors.count().max(1) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use fixed_steps::{Integrator, ProgramName};
+    use rocking::structure::Structure;
+
+    /// The rebound that K leaves is half of the floor, or K is 1/4.
+    #[test]
+    fn k_follows_from_the_step() {
+        let body = Structure::block(2.0, 1.0, 1e3).unwrap().body::<f64>();
+        for step in [2.5e-4, 1e-3] {
+            let k = design(&body, step).vertical.k;
+            let rebound = REBOUND * body.alpha().powi(3) * (REBOUND_OVER_K * k).powi(2);
+            assert_relative_eq!(
+                rebound,
+                0.5 * FLOOR * body.p_squared().sqrt() * step,
+                max_relative = 1e-9
+            );
+        }
+        assert_relative_eq!(
+            design(&Structure::paper().body(), 1e-3).vertical.k,
+            LARGEST_K,
+            max_relative = 1e-12
+        );
+    }
+
+    /// The emulated rebound of the units in short steps is what the closed form counts on, within a
+    /// half.
+    #[test]
+    fn units_rebound_as_counted_on() {
+        let body = Structure::block(2.0, 1.0, 1e3).unwrap().body::<f64>();
+        for step in [2.5e-5, 1e-4] {
+            let design = design(&body, step);
+            let springs =
+                FixedStepSprings::designed(&body, step, Integrator::Trbdf2, &design).unwrap();
+            let found = fixed_steps::rebound::rebound(
+                &body,
+                &springs.chains().vertical,
+                1e-7,
+                &Integrator::Trbdf2,
+            );
+            let counted = REBOUND_OVER_K * design.vertical.k;
+            assert!((found / counted - 1.0).abs() < 0.5, "{found} {counted}");
+        }
+    }
+
+    #[test]
+    fn a_step_too_long_promises_nothing() {
+        let body = Structure::block(0.3, 0.1, 10.0).unwrap().body::<f64>();
+        let suites = Suites::of_seed(7, &body, body.restitution(), None);
+        let program = FixedStepProgram::of(ProgramName::OpenSees, 1e-2);
+        let found =
+            ProgramSprings::measured(&body, program, &suites, true, &Effort::unbounded()).unwrap();
+        assert!(found.synthetic.is_none() && found.earthquakes.is_none());
+        let program = FixedStepProgram { step: 1e-3, ..program };
+        let found =
+            ProgramSprings::measured(&body, program, &suites, false, &Effort::unbounded()).unwrap();
+        assert!(
+            found.synthetic.is_some_and(|errors| errors.count() > 12)
+                && found.earthquakes.is_none()
+        );
+    }
+
+    /// Where a user asks, what springs err is told on motions none of which chose them.
+    #[test]
+    fn springs_are_told_on_motions_that_did_not_choose_them() {
+        let body = Structure::block(0.3, 0.1, 10.0).unwrap().body::<f64>();
+        let effort = Effort::unbounded();
+        let suites = Suites::of_seed(7, &body, body.restitution(), None);
+        let program = FixedStepProgram::of(ProgramName::OpenSees, 1e-3);
+        let found = ProgramSprings::measured(&body, program, &suites, true, &effort).unwrap();
+        let motions = ProgramSuites::of(&found.springs.body, &suites, true, &effort);
+        assert!(motions.others.len() > ALSO_CHOOSE);
+        for other in &motions.others {
+            assert!(motions.synthetic.iter().all(|chose| chose.accel != other.accel));
+        }
+        assert_eq!(found.synthetic, found.errors(&motions.others));
+        assert_ne!(found.synthetic, found.errors(&motions.synthetic));
+        assert_eq!(found.earthquakes, found.errors(&motions.earthquakes));
+    }
+}

@@ -1,0 +1,286 @@
+//! A whole case: the inner design by the case's objective, Omega_n by the accuracy asked for, and
+//! the paper's procedure at the same Omega_n beside it.
+
+mod error;
+mod landing_design;
+mod procedure;
+
+use std::f64::consts::TAU;
+
+use rayon::join;
+
+use super::{
+    fixed_steps::ProgramSprings,
+    paper_procedure::outer::{self, Benchmark},
+    stiffness_search::{Rung, Tuned},
+    suite::Suites,
+};
+pub use error::JobError;
+use frequency_response::inner::Fit;
+use landing_design::LandingDesign;
+use procedure::Procedure;
+
+use cases::{Asked, Case, Objective};
+use dynamics::{
+    effort::{CutBy, Effort, StopSignal},
+    fem::Control,
+    spring::{Design, Springs},
+};
+use results::{Finding, NotDone};
+use rocking::{
+    housner::{self, Rocking},
+    motion::Motion,
+    structure::Body,
+};
+use strong_motion::Record;
+
+/// Units of work that a search may take unless told otherwise: about a minute on two cores.
+pub const MOST_WORK: u64 = 100_000_000;
+/// Stiffest springs that are tried where no cap is given (Hz).
+pub const CEILING_HZ: f64 = 2e5;
+
+/// What the paper's procedure gives: families of the inner fit, and the outer loop over Omega_n on
+/// the record.
+#[derive(Debug)]
+pub struct Paper {
+    pub vertical: Vec<Fit>,
+    pub horizontal: Vec<Fit>,
+    pub tuned: outer::OmegaSearch,
+}
+
+/// A case's springs and all that led to them.
+#[derive(Debug)]
+pub struct Job {
+    pub body: Body<f64>,
+    /// The record over the length compared.
+    pub record: Record,
+    pub rocking: Rocking<f64>,
+    /// Housner's motion.
+    pub housner: Motion,
+    pub springs: Springs<Design<f64>>,
+    /// The outer loop; its best rung has the springs.
+    pub tuned: Tuned,
+    pub suites: Suites,
+    /// Whether a cap on Omega_n decided.
+    pub capped: bool,
+    /// None where the record cannot be tuned on: it does not lift the structure, or Housner's
+    /// answer is ill-conditioned.
+    pub paper: Option<Paper>,
+    /// Springs for a program with fixed time steps; none for a restitution that such springs have
+    /// not.
+    pub program: Option<ProgramSprings>,
+    /// What cut the job, if anything was left out of it, and what that is.
+    pub cut: Option<CutBy>,
+    pub not_done: Vec<NotDone>,
+    /// Histories of the search that met their own bound on steps.
+    pub unfinished: usize,
+}
+
+impl Job {
+    /// Tune a case. `progress` gets a count, the planned number (0 if unknown), and the least error
+    /// so far.
+    ///
+    /// # Errors
+    /// No springs that settle as little as asked for; for the paper's procedure, a record that does
+    /// not lift the structure.
+    pub fn new(
+        case: &Case,
+        progress: &(dyn Fn(usize, usize, f64) + Sync),
+    ) -> Result<Self, JobError> {
+        Self::within(case, &Effort::of(MOST_WORK, StopSignal::default()), progress)
+    }
+
+    /// The same within an effort; what that cuts is in `cut`, with the best springs so far.
+    ///
+    /// # Errors
+    /// As above.
+    pub fn within(
+        case: &Case,
+        effort: &Effort,
+        progress: &(dyn Fn(usize, usize, f64) + Sync),
+    ) -> Result<Self, JobError> {
+        let record = case.record.truncated(case.duration_s);
+        if record.len() < 2 {
+            return Err(JobError::TooShort { record: record.name.clone(), samples: record.len() });
+        }
+        within_reach(&record)?;
+        let body = case.structure.body::<f64>();
+        let options = housner::RockingOptions {
+            restitution: Some(case.restitution),
+            vertical: record.vertical_accel(),
+            ..Default::default()
+        };
+        let rocking = housner::solve(&body, record.dt, &record.accel, &options);
+        let housner = rocking.motion(&body);
+        let suites = Suites::within(&body, case.restitution, Some(&record), effort);
+        let lifted = !rocking.uplifts.is_empty();
+        let benchmark = Benchmark {
+            body,
+            dt: record.dt,
+            accel: &record.accel,
+            vertical: record.up(),
+            housner: &housner,
+            effort,
+        };
+        let procedure = Procedure::new(case, &benchmark)?;
+
+        let found = match case.tuning.objective {
+            Objective::Landing => {
+                let design =
+                    LandingDesign { case, body, suites: &suites, procedure: &procedure, effort };
+                SearchedSprings::by_landing(&design, progress)?
+            }
+            Objective::Arr if !lifted => {
+                return Err(JobError::NeverLifts {
+                    record: record.name.clone(),
+                    pga_g: record.pga_g(),
+                    limit_g: body.half_width / body.height,
+                });
+            }
+            Objective::Arr => {
+                SearchedSprings::by_paper_procedure(&procedure, &suites, effort, progress)?
+            }
+        };
+        let SearchedSprings { tuned, capped, paper, program, not_done } = found;
+        let paper = paper.map(|tuned| Paper {
+            vertical: procedure.vertical,
+            horizontal: procedure.horizontal,
+            tuned,
+        });
+        let springs = tuned.best.springs;
+        let (cut, unfinished) = (effort.cut(), effort.unfinished());
+        let found = Self {
+            body,
+            record,
+            rocking,
+            housner,
+            springs,
+            tuned,
+            suites,
+            capped,
+            paper,
+            program,
+            cut,
+            not_done,
+            unfinished,
+        };
+        Ok(found)
+    }
+}
+
+/// What the search for springs comes to.
+struct SearchedSprings {
+    tuned: Tuned,
+    /// Whether a cap on Omega_n decided.
+    capped: bool,
+    paper: Option<outer::OmegaSearch>,
+    program: Option<ProgramSprings>,
+    not_done: Vec<NotDone>,
+}
+
+impl SearchedSprings {
+    /// By the design from the geometry, with the paper's procedure at the same Omega_n beside it.
+    fn by_landing(
+        design: &LandingDesign,
+        progress: &(dyn Fn(usize, usize, f64) + Sync),
+    ) -> Result<Self, JobError> {
+        let &LandingDesign { case, body, suites, procedure, effort } = design;
+        // what the one spends does not stop the other: which is first hangs on the threads
+        let rest = effort.share(1);
+        let program = |effort: &Effort| ProgramSprings::of_case(case, &body, suites, effort);
+        let compared = suites.has_whole_record();
+        // a core is free in the paper's refinement; without it, between the stiffnesses tried
+        let (found, early) = match compared {
+            true => (design.tune(progress), None),
+            false => join(|| design.tune(progress), || Some(program(&rest))),
+        };
+        let (tuned, capped) = found?;
+        let mut not_done = left_out(NotDone::Stiffnesses, effort);
+        let hz = tuned.best.springs.vertical.omega_n_hz;
+        // on an ill-conditioned record it would tune to noise
+        let sampled =
+            (compared && !effort.stops()).then(|| procedure.sampled_beside(hz, progress)).flatten();
+        let for_program = if effort.stopped() { effort } else { &rest };
+        let (paper, program) = join(
+            || sampled.and_then(|sampled| procedure.refined_beside(sampled, progress)),
+            || early.unwrap_or_else(|| program(for_program)),
+        );
+        effort.join(&rest);
+        if suites.has_whole_record() {
+            not_done.extend(left_out(NotDone::PaperProcedure, effort));
+        }
+        Ok(Self { tuned, capped, paper, program, not_done })
+    }
+
+    /// By the paper's procedure alone.
+    fn by_paper_procedure(
+        procedure: &Procedure,
+        suites: &Suites,
+        effort: &Effort,
+        progress: &(dyn Fn(usize, usize, f64) + Sync),
+    ) -> Result<Self, JobError> {
+        let (tuned, capped, paper) = procedure.tune(suites, progress)?;
+        let program =
+            ProgramSprings::of_case(procedure.case, &procedure.benchmark.body, suites, effort);
+        let not_done = left_out(NotDone::Stiffnesses, effort);
+        Ok(Self { tuned, capped, paper, program, not_done })
+    }
+}
+
+/// This, if the effort was cut by now.
+fn left_out(what: NotDone, effort: &Effort) -> Vec<NotDone> {
+    if effort.cut().is_some() { vec![what] } else { Vec::new() }
+}
+
+/// A record whose moving ground has more samples than a history may take steps is refused.
+fn within_reach(record: &Record) -> Result<(), JobError> {
+    let up = record.up();
+    let moves = |i: usize| record.accel[i] != 0.0 || up.get(i).is_some_and(|a| *a != 0.0);
+    let steps = (1..record.len()).filter(|&i| moves(i) || moves(i - 1)).count();
+    let most = Control::default().most_steps;
+    if steps <= most {
+        Ok(())
+    } else {
+        Err(JobError::OutOfReach { record: record.name.clone(), steps, most })
+    }
+}
+
+impl Job {
+    /// What of the search was cut or not followed to its end.
+    pub fn findings(&self, asked: Asked) -> Vec<Finding> {
+        let not_done = self.not_done.clone();
+        let reached = self
+            .tuned
+            .best
+            .errors
+            .measured(asked.by)
+            .then(|| self.tuned.best.errors.over(asked) * asked.error);
+        let stiffnesses = if reached.is_some() { self.tuned.rungs.len() } else { 0 };
+        let cut = self.cut.filter(|_| !not_done.is_empty());
+        let cut = cut.map(|by| Finding::SearchCut {
+            by,
+            not_done,
+            stiffnesses,
+            reached,
+            asked: asked.error,
+        });
+        let unfinished = Some(self.unfinished).filter(|histories| *histories > 0);
+        let unfinished =
+            unfinished.map(|histories| Finding::HistoriesUnfinished { histories, left_out: false });
+        cut.into_iter().chain(unfinished).collect()
+    }
+}
+
+/// Springs that are not the outer loop's, with their errors.
+fn evaluate(
+    suites: &Suites,
+    body: &Body<f64>,
+    asked: Asked,
+    springs: Springs<Design<f64>>,
+    effort: &Effort,
+) -> Tuned {
+    let found = suites.accuracy_within(&springs.chains(body.mass), (Control::search(), effort));
+    let stiffness = TAU * springs.vertical.omega_n_hz / body.p_squared().sqrt();
+    let best = Rung { stiffness, springs, errors: found };
+    Tuned { rungs: vec![best], best, reached: found.over(asked) <= 1.0 }
+}

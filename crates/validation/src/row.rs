@@ -1,0 +1,284 @@
+//! One record under both models.
+
+use std::{borrow::Cow, f64::consts::FRAC_PI_2};
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::{HousnerForces, Validator, stream::ComparisonObserver};
+use dynamics::fem;
+use rocking::{conditioning::Conditioning, housner, overturning::samples_until, regime};
+use strong_motion::{Record, Source};
+
+/// Whether the two models could be compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RecordOutcome {
+    /// Housner's body rocked, or toppled.
+    Rocked,
+    /// The record never lifts Housner's body: there is no history to compare with.
+    NeverLifted,
+    /// Housner's solution met its bound on work or a number that is not finite.
+    HousnerFailed,
+    /// The finite element history met its bound on work or a number that is not finite.
+    FemFailed,
+}
+
+/// Which set of records a record belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Suite {
+    /// Of files, or of numbers from elsewhere.
+    Files,
+    /// Made for the structure.
+    Synthetic,
+    /// Made with the frequencies of earthquakes.
+    Earthquakes,
+}
+
+impl From<&Source> for Suite {
+    fn from(source: &Source) -> Self {
+        match source {
+            Source::Numbers | Source::Embedded | Source::File { .. } => Self::Files,
+            Source::Synthetic => Self::Synthetic,
+            Source::Earthquake => Self::Earthquakes,
+        }
+    }
+}
+
+/// Relative change of the restitution that shows how far Housner's statistics depend on nothing.
+const CHANGE: f64 = 1e-5;
+
+/// What is kept of a record. Options are empty (`null` in JSON) where there is no such number.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Row {
+    /// The record's name.
+    pub name: String,
+    /// How the finite element history ended.
+    pub outcome: RecordOutcome,
+    /// Length compared: up to the end of the shorter history, and to the first overturning (s).
+    pub duration_s: f64,
+    /// Peak ground acceleration, scaled as compared (g).
+    pub pga_g: f64,
+    /// Relative change of Housner's u per relative change of width or record scale, whichever is
+    /// worse.
+    pub sensitivity: f64,
+    /// sqrt( sum (u - u_H)^2 / sum u_H^2 ), up to the first overturning; none if the record never
+    /// lifts the body or a model failed.
+    pub nrmse_horizontal: Option<f64>,
+    /// The same for v, from the settled position.
+    pub nrmse_vertical: Option<f64>,
+    /// Peak |theta|/alpha at the samples; pi/2 / alpha if it toppled.
+    pub peak_ratio_housner: f64,
+    /// The same while a foot is off the ground; none if the history failed.
+    pub peak_ratio_fem: Option<f64>,
+    /// Whether Housner's body overturned.
+    pub overturned_housner: bool,
+    /// None if the history failed.
+    pub overturned_fem: Option<bool>,
+    /// Impacts of Housner's body.
+    pub impacts: usize,
+    /// Largest |residual| of the finite element model's energy account over the largest energy of
+    /// the history.
+    pub energy_residual: f64,
+    /// Where the record comes from.
+    pub suite: Suite,
+    /// By the derivative and by finite changes; false if the record never lifts Housner's body.
+    pub well_conditioned: bool,
+    /// How far a change of 0.1 % and of 1 % in width or scale, whichever is worse, moves Housner's
+    /// u.
+    pub moved_by_0_1_percent: f64,
+    /// The same of 1 %.
+    pub moved_by_1_percent: f64,
+    /// How far a change of 0.1 % in restitution moves it.
+    pub moved_by_0_1_percent_of_restitution: f64,
+    /// As `peak_ratio_housner`, with a restitution smaller by 1e-5 of it.
+    pub peak_ratio_housner_changed: f64,
+    /// Whether Housner's body overturned with that restitution.
+    pub overturned_housner_changed: bool,
+    /// When Housner's pivot would first have to hold the body down (s); none if it presses
+    /// throughout. A foot lifts there, and rocking does not hold any more.
+    pub pivot_pulls_s: Option<f64>,
+    /// Relative error of the largest |u|; this and the next ones are none where `nrmse_horizontal`
+    /// is.
+    pub displacement_error: Option<f64>,
+    /// Of the largest uplift of a foot.
+    pub uplift_error: Option<f64>,
+    /// Of the largest base shear between landings.
+    pub base_shear_error: Option<f64>,
+    /// Of the largest vertical force of the ground between landings.
+    pub axial_error: Option<f64>,
+}
+
+impl Row {
+    /// Whether one of the models failed.
+    pub fn failed(&self) -> bool {
+        matches!(self.outcome, RecordOutcome::HousnerFailed | RecordOutcome::FemFailed)
+    }
+
+    /// The largest of the peaks' errors.
+    pub fn peak_error(&self) -> Option<f64> {
+        let all =
+            [self.displacement_error, self.uplift_error, self.base_shear_error, self.axial_error];
+        all.into_iter().try_fold(0.0, |largest, error| Some(f64::max(largest, error?)))
+    }
+
+    /// Whether Housner's body rocked without toppling and its history is well conditioned: NRMSE
+    /// means something one to one.
+    pub fn comparable(&self) -> bool {
+        self.rocked() && self.well_conditioned
+    }
+
+    /// Whether Housner's body rocked without toppling, and on a pivot that never had to pull.
+    pub fn rocked(&self) -> bool {
+        let rocked = matches!(self.outcome, RecordOutcome::Rocked | RecordOutcome::FemFailed);
+        rocked && !self.overturned_housner && self.pivot_pulls_s.is_none()
+    }
+
+    /// The NRMSE of a row: at least 1 where one body topples and the other does not, however long
+    /// they went together.
+    pub fn error(&self, nrmse: Option<f64>) -> Option<f64> {
+        if self.agrees() { nrmse } else { nrmse.map(|x| x.max(1.0)) }
+    }
+
+    /// Whether both models say the same of overturning.
+    pub fn agrees(&self) -> bool {
+        !self.failed() && self.overturned_fem == Some(self.overturned_housner)
+    }
+}
+
+/// Housner's answer to a record.
+struct HousnerAnswer<'a> {
+    record: Cow<'a, Record>,
+    options: housner::RockingOptions<f64>,
+    rocking: housner::Rocking<f64>,
+    forces: HousnerForces,
+    conditioning: Option<Conditioning>,
+}
+
+impl HousnerAnswer<'_> {
+    /// His rotations until the body lies.
+    fn standing(&self) -> &[f64] {
+        let Self { record, rocking, .. } = self;
+        let samples = samples_until(rocking.overturned(), record.dt);
+        &rocking.theta[..samples.min(rocking.theta.len())]
+    }
+}
+
+impl Validator {
+    /// Run both models over records, the finite element histories side by side.
+    pub fn judge(&self, records: &[Record]) -> Vec<Row> {
+        let answers: Vec<HousnerAnswer> =
+            records.par_iter().with_max_len(1).map(|record| self.answer(record)).collect();
+        let cases: Vec<fem::Analysis> =
+            answers.iter().map(|answer| self.case(&answer.record)).collect();
+        let watch = |i: usize| {
+            ComparisonObserver::new(&self.body, answers[i].standing(), cases[i].accel)
+                .with_forces(&answers[i].forces)
+        };
+        let followed = fem::histories(&cases, watch);
+        let both = answers.par_iter().with_max_len(1).zip(followed);
+        both.map(|(answer, (stream, finish))| self.row(answer, &stream, &finish)).collect()
+    }
+
+    fn answer<'a>(&self, record: &'a Record) -> HousnerAnswer<'a> {
+        // the whole record as it is, without a copy
+        let short = self.duration_s.map(|duration| record.truncated(duration));
+        let record = short.map_or(Cow::Borrowed(record), Cow::Owned);
+        let options =
+            housner::RockingOptions { restitution: Some(self.restitution), ..Default::default() };
+        let rocking = housner::solve(&self.body, record.dt, &record.accel, &options);
+        let lifted = rocking.outcome != housner::RockingOutcome::NeverMoved;
+        let conditioning =
+            lifted.then(|| Conditioning::new(&self.body, record.dt, &record.accel, &options));
+        let forces = HousnerForces::new(&self.body, record.dt, (&record.accel, &[]), &rocking);
+        HousnerAnswer { record, options, rocking, forces, conditioning }
+    }
+
+    fn case<'a>(&self, record: &'a Record) -> fem::Analysis<'a> {
+        fem::Analysis {
+            body: self.body,
+            springs: self.springs,
+            start: fem::Start::Settled,
+            dt: record.dt,
+            accel: &record.accel,
+            vertical: &[],
+            scale: 1.0,
+            control: self.control,
+        }
+    }
+
+    fn row(
+        &self,
+        answer: &HousnerAnswer,
+        stream: &ComparisonObserver,
+        finish: &fem::Finish,
+    ) -> Row {
+        let HousnerAnswer { record, options, rocking, conditioning, .. } = answer;
+        let (body, dt, accel) = (&self.body, record.dt, &record.accel[..]);
+        let overturned_fem = match finish.outcome {
+            fem::HistoryOutcome::Overturned { .. } | fem::HistoryOutcome::Stopped { .. } => {
+                Some(true)
+            }
+            fem::HistoryOutcome::Completed => {
+                Some(housner::topples(body, stream.last.0, stream.last.1))
+            }
+            fem::HistoryOutcome::WorkBound { .. } | fem::HistoryOutcome::Unstable { .. } => None,
+        };
+        let errors = if overturned_fem == Some(true) { stream.upright } else { stream.errors };
+        let (horizontal, vertical) = (errors.horizontal.value(), errors.vertical.value());
+        let finite = !horizontal.is_nan() && !vertical.is_nan() && stream.peak.is_finite();
+        let outcome = match rocking.outcome {
+            housner::RockingOutcome::LeavesGround { .. }
+            | housner::RockingOutcome::WorkBound { .. }
+            | housner::RockingOutcome::NotFinite { .. } => RecordOutcome::HousnerFailed,
+            _ if overturned_fem.is_none() || !finite => RecordOutcome::FemFailed,
+            housner::RockingOutcome::NeverMoved => RecordOutcome::NeverLifted,
+            _ => RecordOutcome::Rocked,
+        };
+        let overturned_housner = rocking.overturned().is_some();
+        let overturned_fem = overturned_fem.filter(|_| outcome != RecordOutcome::FemFailed);
+        let ratio =
+            |peak: f64, overturned| if overturned { FRAC_PI_2 } else { peak } / body.alpha();
+        let peak_of = |rocking: &housner::Rocking<f64>| {
+            let peak = rocking.theta.iter().fold(0.0, |peak: f64, x| peak.max(x.abs()));
+            ratio(peak, rocking.overturned().is_some())
+        };
+        let changed = housner::RockingOptions {
+            restitution: Some(self.restitution * (1.0 - CHANGE)),
+            ..options.clone()
+        };
+        let changes = conditioning.map(|c| c.changes).unwrap_or_default();
+        let moved = |k: usize| changes.width[k].max(changes.scale[k]);
+        let changed = housner::solve(body, dt, accel, &changed);
+        let error = |x: f64| (outcome == RecordOutcome::Rocked && x.is_finite()).then_some(x);
+        let peaks = errors.peaks.errors();
+        Row {
+            name: record.name.clone(),
+            outcome,
+            duration_s: errors.samples.saturating_sub(1) as f64 * dt,
+            pga_g: record.pga_g(),
+            sensitivity: conditioning.map_or(0.0, |c| c.sensitivity.worst()),
+            nrmse_horizontal: error(horizontal),
+            nrmse_vertical: error(vertical),
+            peak_ratio_housner: peak_of(rocking),
+            peak_ratio_fem: overturned_fem.map(|overturned| ratio(stream.peak, overturned)),
+            overturned_housner,
+            overturned_fem,
+            impacts: rocking.impacts.len(),
+            energy_residual: (stream.residual / finish.energy_scale).min(f64::MAX),
+            suite: (&record.source).into(),
+            well_conditioned: conditioning.is_some_and(|c| c.well_conditioned()),
+            moved_by_0_1_percent: moved(0),
+            moved_by_1_percent: moved(1),
+            moved_by_0_1_percent_of_restitution: changes.restitution[0],
+            peak_ratio_housner_changed: peak_of(&changed),
+            overturned_housner_changed: changed.overturned().is_some(),
+            pivot_pulls_s: regime::pivot_pulls(body, dt, accel, rocking),
+            displacement_error: error(horizontal).and(error(peaks.displacement)),
+            uplift_error: error(horizontal).and(error(peaks.uplift)),
+            base_shear_error: error(horizontal).and(error(peaks.base_shear)),
+            axial_error: error(horizontal).and(error(peaks.axial)),
+        }
+    }
+}
