@@ -49,7 +49,7 @@ pub struct Assumption {
 
 impl AssumedQuantity {
     /// What it is and what it was taken for, in a few words.
-    pub fn words(self) -> &'static str {
+    pub(crate) fn words(self) -> &'static str {
         match self {
             Self::Restitution => "Housner's restitution (equation 2)",
             Self::SolidInertia => "inertia of a solid block",
@@ -201,7 +201,7 @@ fn column(mass_kg: f64, given: Option<usize>, elements: usize) -> Option<Assumpt
 }
 
 /// What was taken of a ground motion by itself.
-pub fn of_excitation(excitation: &Excitation) -> Vec<Assumption> {
+pub(crate) fn of_excitation(excitation: &Excitation) -> Vec<Assumption> {
     let embedded = excitation.record.source == Source::Embedded;
     let record = embedded.then(|| {
         let peak_g = excitation.scale.abs() * excitation.record.pga_g();

@@ -193,7 +193,7 @@ fn heavy_column(column_kg: f64, mass_kg: f64) -> Option<Doubt> {
 }
 
 /// Doubts of a ground motion, as it is used.
-pub fn of_excitation(excitation: &Excitation) -> Vec<Doubt> {
+pub(crate) fn of_excitation(excitation: &Excitation) -> Vec<Doubt> {
     let record = &excitation.record;
     let used = record.truncated(excitation.duration());
     let pga_g = excitation.scale.abs() * used.pga_g();

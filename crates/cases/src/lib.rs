@@ -168,7 +168,7 @@ pub struct Case {
 pub const LONGEST_S: f64 = 1e6;
 
 /// The paper's case, embedded.
-pub const PAPER: &str = include_str!("../../../tuning/paper.toml");
+pub(crate) const PAPER: &str = include_str!("../../../tuning/paper.toml");
 
 impl Case {
     /// The paper's case: its A-frame on El Centro.

@@ -15,11 +15,11 @@
 
 pub mod bounds;
 pub mod certificate;
-pub mod excess;
+mod excess;
 pub mod inner;
-pub mod minimax;
+mod minimax;
 pub mod response;
-pub mod smooth;
+mod smooth;
 pub mod target;
 
 pub use response::{Response, arr};

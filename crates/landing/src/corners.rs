@@ -13,7 +13,7 @@
 use super::linear::dot;
 
 /// Corner directions: old foot x, z, new foot x, z.
-pub const DIRECTIONS: usize = 4;
+pub(crate) const DIRECTIONS: usize = 4;
 /// Least I_cg/(m R^2): the limit of a massless rotation. The smaller it is the faster the body
 /// turns on its springs, at Omega_h/sqrt(I_cg/m R^2), without a change of the outcome.
 const LEAST_INERTIA: f64 = 1e-3;
@@ -42,10 +42,9 @@ impl CornerDynamics {
         let inertia = mass_share.recip() - 1.0;
         let inertia = if inertia < LEAST_INERTIA { LEAST_INERTIA } else { inertia };
         let (sin, cos) = (alpha.sin(), alpha.cos());
-        let (zero, one) = (0.0, 1.0);
         // G: (u, v, theta) of the centre of mass to x, z of the old foot (-b, -h) and the new one
         // (b, -h)
-        let g = [[one, zero, -cos], [zero, one, sin], [one, zero, -cos], [zero, one, -sin]];
+        let g = [[1.0, 0.0, -cos], [0.0, 1.0, sin], [1.0, 0.0, -cos], [0.0, 1.0, -sin]];
         let w = std::array::from_fn(|i| {
             std::array::from_fn(|j| {
                 g[i][0] * g[j][0] + g[i][1] * g[j][1] + g[i][2] * g[j][2] / inertia
@@ -79,7 +78,7 @@ impl CornerDynamics {
 
     /// Whether a landing brings both corners to rest.
     #[cfg(test)]
-    pub fn stops(&self) -> bool {
+    pub(crate) fn stops(&self) -> bool {
         self.plastic[1] > 0.0
     }
 }

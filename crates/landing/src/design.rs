@@ -123,7 +123,7 @@ impl Geometry {
     }
 
     /// Omega_n v_n/g for a fall from alpha: (m R^2/I0) 2 alpha^2 Omega_n/p.
-    pub fn hardness(&self) -> f64 {
+    pub(crate) fn hardness(&self) -> f64 {
         2.0 * self.mass_share * self.alpha.powi(2) * self.stiffness
     }
 

@@ -11,8 +11,7 @@
 //! vertical units, the speed at which the new foot comes down is 1. The problem is positively
 //! homogeneous: twice the speed, twice the motion, so that its outcome holds for every landing in
 //! the limit Omega_n v_n >> g. Between changes of contact it is linear and followed exactly
-//! (`linear`); changes are located by Newton's method in the scalar, so that derivatives go through
-//! them.
+//! (`linear`); changes are located by Newton's method.
 //!
 //! The structure is anything with a rigid base on two corners: a rigid body, or the footing of an
 //! elastic pier (`corners`). What is right is the plastic landing with impulses J*; how far springs

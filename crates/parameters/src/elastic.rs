@@ -160,7 +160,7 @@ impl ElasticParameters {
     }
 
     /// What the structure has besides.
-    pub fn members(&self) -> Members {
+    pub(crate) fn members(&self) -> Members {
         Members { damper: self.damper, tendon: self.tendon, friction: None }
     }
 
@@ -173,7 +173,7 @@ impl ElasticParameters {
     }
 
     /// Whether a file's text is of an elastic structure.
-    pub fn is(text: &str) -> bool {
+    pub(crate) fn is(text: &str) -> bool {
         let Ok(value) = serde_json::from_str::<serde_json::Value>(text) else { return false };
         value["springs"].is_array() && value["structure"]["kind"].is_string()
     }

@@ -41,7 +41,7 @@ use validation::verdict::Verdict;
 /// Version of the keys of parameters.json that this program writes. Version 1 had no number, and
 /// remembered of the record only what it was called; version 2 had no peaks, design forces and
 /// findings; version 3 no springs for programs with fixed time steps.
-pub const SCHEMA: u32 = 4;
+pub(crate) const SCHEMA: u32 = 4;
 
 /// How sensitive Housner's history of that record is: relative change of u per relative change
 /// (`conditioning`).

@@ -76,11 +76,14 @@ pub struct ProgramSetting {
     /// Whether it looks like a misprint and is none.
     #[serde(skip)]
     meant: bool,
+    /// Whether a crowded screen leaves it out.
+    #[serde(skip)]
+    spare: bool,
 }
 
 impl ProgramSetting {
     fn new(name: &'static str, value: String, short: String) -> Self {
-        Self { name, value, short, meant: false }
+        Self { name, value, short, meant: false, spare: false }
     }
 }
 
@@ -96,7 +99,10 @@ impl ProgramReport {
             ProgramSetting::new(
                 "rotational inertia at the mass",
                 value.clone(),
-                format!("inertia {value} at the mass (these steps need it)"),
+                format!(
+                    "inertia {value} at the mass, not {} (these steps need it)",
+                    significant(given, 4)
+                ),
             )
         });
         let late = late(parameters.peaks, &parameters.findings);
@@ -160,7 +166,8 @@ impl ProgramReport {
 
     /// For a screen: what the program is to be set to; nothing of springs that are not to be used.
     pub(crate) fn settings(&self, room: bool) -> String {
-        let told = self.set_to.iter().filter(|s| self.usable && !s.short.is_empty());
+        let told =
+            self.set_to.iter().filter(|s| self.usable && !s.short.is_empty() && (room || !s.spare));
         let one = |s: &ProgramSetting| match s.meant && room {
             true => format!("{} (meant so large)", s.short),
             false => s.short.clone(),
@@ -212,6 +219,9 @@ impl ProgramReport {
     }
 }
 
+/// The ground motion's factor, for a screen.
+const FACTOR: &str = "motion x 1 (m/s2)";
+
 /// What a program is to be set to, in the order of SAP2000's dialog.
 fn settings<U>(
     row: &ProgramRow<U>,
@@ -223,7 +233,7 @@ fn settings<U>(
     let [largest, least] = [1, row.substeps].map(|n| significant(row.step_s / n as f64, 4));
     let mut all = vec![set("integrator", integrator.clone(), integrator)];
     all.extend(output);
-    let substeps = format!("substeps {largest} to {least} s");
+    let substeps = format!("substeps max {largest}, min {least} s");
     all.push(set("largest substep", format!("{largest} s"), substeps));
     all.push(set("smallest substep", format!("{least} s"), String::new()));
     all.push(set("iterations with constant stiffness", "0".into(), String::new()));
@@ -235,12 +245,19 @@ fn settings<U>(
             ("tolerance of a change of place", format!("{} m", significant(x, 3)), false)
         }
     };
-    let iterations = format!("0 constant + {newton} Newton iterations, tolerance {value}");
+    let iterations = format!("constant-stiffness 0, Newton {newton} iterations, tolerance {value}");
     all.push(set("Newton-Raphson iterations, at most", newton.to_string(), String::new()));
     all.push(ProgramSetting { meant: large, ..set(name, value, iterations) });
     if row.is_csi() {
+        // what the dialog has otherwise, unless it is told
+        all.push(set("event-to-event stepping", "no".into(), "no event stepping".into()));
+        all.push(set("line search", "no".into(), "no line search".into()));
         let geometry = "P-Delta plus large displacements";
-        all.push(set("geometric nonlinearity", geometry.into(), "large displacements".into()));
+        all.push(set("geometric nonlinearity", geometry.into(), geometry.into()));
+        let damping = set("proportional damping of the case", "0".into(), "case damping 0".into());
+        let factor = "1, for the file is in m/s2 and scaled";
+        let factor = set("scale factor of the ground motion", factor.into(), FACTOR.into());
+        all.extend([damping, factor].map(|s| ProgramSetting { spare: true, ..s }));
         all.push(set("initial conditions", "continue from GRAVITY".into(), "from GRAVITY".into()));
     }
     all.extend(inertia);

@@ -35,12 +35,18 @@ struct Crowding {
     both_commands: bool,
     /// Lines of what a program with fixed time steps errs.
     program: usize,
+    /// Lines of what such a program is to be set to: all of it, without what is only to be left at
+    /// nought and one, or what there is room for.
+    settings: usize,
     /// Whether impacts, and the friction needed, stand in the table of peaks.
     all_peaks: bool,
     /// Whether what was given, doubts of it, what was assumed and settings have one line each, and
     /// no force has a line of its own.
     tight: bool,
 }
+
+/// Lines that all settings of a program take.
+const ALL_SETTINGS: usize = 4;
 
 /// All that there is room for.
 const SPACIOUS: Crowding = Crowding {
@@ -51,6 +57,7 @@ const SPACIOUS: Crowding = Crowding {
     sentence: 3,
     both_commands: true,
     program: 2,
+    settings: ALL_SETTINGS,
     all_peaks: true,
     tight: false,
 };
@@ -64,6 +71,7 @@ const CLOSEST: Crowding = Crowding {
     sentence: 2,
     both_commands: false,
     program: 1,
+    settings: 3,
     all_peaks: true,
     tight: false,
 };
@@ -77,7 +85,7 @@ const CROWDING: [Crowding; 7] = [
     Crowding { assumed: 2, ..CLOSEST },
     CLOSEST,
     Crowding { all_peaks: false, ..CLOSEST },
-    Crowding { all_peaks: false, tight: true, ..CLOSEST },
+    Crowding { settings: 2, all_peaks: false, tight: true, ..CLOSEST },
 ];
 
 /// What is said where no springs suit steps of one size.
@@ -344,9 +352,9 @@ fn next(run: &Run, written: &Written, crowding: Crowding, lines: &mut Vec<String
             });
             let fits = told.iter().position(|some| some.len() <= crowding.program);
             lines.append(&mut told[fits.unwrap_or(told.len() - 1)]);
-            let settings = program.settings(!crowding.tight);
+            let settings = program.settings(crowding.settings >= ALL_SETTINGS);
             if !settings.is_empty() {
-                at_most(if crowding.tight { 2 } else { 3 }, lines, "  set to  ", &settings);
+                at_most(crowding.settings, lines, "  set to  ", &settings);
             }
             if written.decks && program.deck_of_even_steps {
                 let deck = format!("python3 {}", written.file(&format!("decks/{EVEN_DECK}")));

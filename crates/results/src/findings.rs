@@ -368,7 +368,7 @@ impl From<Finding> for FiledFinding {
 
 impl Finding {
     /// How much it weighs.
-    pub fn weight(&self) -> Weight {
+    pub(crate) fn weight(&self) -> Weight {
         match self {
             Self::NeverLifts { .. } | Self::Stands { .. } | Self::Overturns { .. } => {
                 Weight::Answer

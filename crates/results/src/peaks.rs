@@ -166,7 +166,7 @@ impl Peaks {
 
 /// Height of a rigid body's highest point (m): a solid block is twice as high as its centre of
 /// mass.
-pub fn top_height(kind: Kind, body: &Body<f64>) -> f64 {
+pub(crate) fn top_height(kind: Kind, body: &Body<f64>) -> f64 {
     match kind {
         Kind::AFrame => body.height,
         Kind::Block => 2.0 * body.height,

@@ -136,7 +136,7 @@ fn raise(pair: &mut [f64; 2], values: [f64; 2]) {
 impl PeakPairs {
     /// Take note of u (m) and theta (rad), the latter of a body with a foot off the ground, of both
     /// models at a sample.
-    pub fn motion(&mut self, u: [f64; 2], theta: [f64; 2]) {
+    pub(crate) fn motion(&mut self, u: [f64; 2], theta: [f64; 2]) {
         raise(&mut self.displacement, u);
         raise(&mut self.lean, theta);
     }
@@ -144,7 +144,7 @@ impl PeakPairs {
     /// Take note of the forces in the interval that ends at a sample, where they count: a foot on
     /// springs touched the ground last at `touched` (s), and the centre of mass had these
     /// velocities before it and has them at its end (m/s).
-    pub fn interval(
+    pub(crate) fn interval(
         &mut self,
         forces: &HousnerForces,
         index: usize,

@@ -117,7 +117,7 @@ impl Row {
     }
 
     /// The largest of the peaks' errors.
-    pub fn peak_error(&self) -> Option<f64> {
+    pub(crate) fn peak_error(&self) -> Option<f64> {
         let all =
             [self.displacement_error, self.uplift_error, self.base_shear_error, self.axial_error];
         all.into_iter().try_fold(0.0, |largest, error| Some(f64::max(largest, error?)))
@@ -130,19 +130,19 @@ impl Row {
     }
 
     /// Whether Housner's body rocked without toppling, and on a pivot that never had to pull.
-    pub fn rocked(&self) -> bool {
+    pub(crate) fn rocked(&self) -> bool {
         let rocked = matches!(self.outcome, RecordOutcome::Rocked | RecordOutcome::FemFailed);
         rocked && !self.overturned_housner && self.pivot_pulls_s.is_none()
     }
 
     /// The NRMSE of a row: at least 1 where one body topples and the other does not, however long
     /// they went together.
-    pub fn error(&self, nrmse: Option<f64>) -> Option<f64> {
+    pub(crate) fn error(&self, nrmse: Option<f64>) -> Option<f64> {
         if self.agrees() { nrmse } else { nrmse.map(|x| x.max(1.0)) }
     }
 
     /// Whether both models say the same of overturning.
-    pub fn agrees(&self) -> bool {
+    pub(crate) fn agrees(&self) -> bool {
         !self.failed() && self.overturned_fem == Some(self.overturned_housner)
     }
 }
@@ -167,7 +167,7 @@ impl HousnerAnswer<'_> {
 
 impl Validator {
     /// Run both models over records, the finite element histories side by side.
-    pub fn judge(&self, records: &[Record]) -> Vec<Row> {
+    pub(crate) fn judge(&self, records: &[Record]) -> Vec<Row> {
         let answers: Vec<HousnerAnswer> =
             records.par_iter().with_max_len(1).map(|record| self.answer(record)).collect();
         let cases: Vec<fem::Analysis> =

@@ -78,7 +78,7 @@ pub struct GeometricMean {
 
 impl GeometricMean {
     /// Of all such rows.
-    pub fn new<'a>(rows: impl IntoIterator<Item = &'a Row>) -> Self {
+    pub(crate) fn new<'a>(rows: impl IntoIterator<Item = &'a Row>) -> Self {
         Self::by(rows, |row| row.nrmse_horizontal)
     }
 
@@ -153,7 +153,7 @@ pub struct Validation {
 
 impl Validation {
     /// From the rows of all records.
-    pub fn new(records: Vec<Row>) -> Self {
+    pub(crate) fn new(records: Vec<Row>) -> Self {
         let mut suites = BTreeMap::<Suite, Vec<&Row>>::new();
         for row in &records {
             suites.entry(row.suite).or_default().push(row);
@@ -165,7 +165,7 @@ impl Validation {
 
 impl Summary {
     /// From the rows of a set.
-    pub fn new(records: &[&Row]) -> Self {
+    pub(crate) fn new(records: &[&Row]) -> Self {
         let (housner, fem): (Vec<f64>, Vec<f64>) = records.iter().map(|row| peaks(row)).unzip();
         let changed: Vec<f64> = records.iter().map(|row| row.peak_ratio_housner_changed).collect();
         let never_lifted =

@@ -173,8 +173,8 @@ fn weight(parts: &SapModel) -> String {
         let force = number(-joint.mass * GRAVITY * KILO);
         text += &line(&[format!("joint {}", joint.tag), force]);
     }
-    text + "   Load case GRAVITY: nonlinear static, WEIGHT, full load, P-Delta plus large \
-            displacements; all else as\n   the program has it.\n"
+    text + "   Load case GRAVITY: nonlinear static from zero, WEIGHT with factor 1, full load, \
+            P-Delta plus\n   large displacements; all else as the program has it.\n"
 }
 
 fn history(parts: &SapModel) -> String {
@@ -218,14 +218,15 @@ fn history(parts: &SapModel) -> String {
         (
             "iterations",
             format!(
-                "constant stiffness {}, Newton-Raphson {}; relative tolerance {}{}; no line \
-                 search, no event stepping",
+                "constant stiffness {}, Newton-Raphson {}; relative tolerance {}{}",
                 settings.constant,
                 settings.newton,
                 short(&settings.tolerance),
                 meant(&settings.tolerance)
             ),
         ),
+        // the dialog has both otherwise
+        ("stepping", "event-to-event stepping No; at most 0 line searches an iteration".into()),
     ] {
         text += &format!("   {what:<COLUMN$}{value}\n");
     }
@@ -236,8 +237,9 @@ fn history(parts: &SapModel) -> String {
 fn motions(parts: &SapModel) -> String {
     let (every, values) = (number(parts.record.dt), parts.record.len());
     let across = format!(
-        "acceleration U1, scale 1: function from file ground_motion.txt, {values} values in m/s2, \
-         one a line,\n   {:COLUMN$}from t = 0, every {every} s, no header line",
+        "acceleration U1, scale 1: function from file ground_motion.txt beside this one, in m/s2, \
+         scaled\n   {:COLUMN$}already, {values} values, one a line, from t = 0, every {every} s, \
+         no header line",
         ""
     );
     match parts.record.vertical {

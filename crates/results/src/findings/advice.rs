@@ -5,7 +5,7 @@ use dynamics::effort::CutBy;
 
 impl Finding {
     /// What to do, if there is anything to do.
-    pub fn remedy(&self) -> Option<String> {
+    pub(crate) fn remedy(&self) -> Option<String> {
         let text = match self {
             Self::Stands { .. }
             | Self::ForcesAtRest { .. }

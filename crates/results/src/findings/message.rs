@@ -54,7 +54,7 @@ fn later(forces: &[ForceName]) -> String {
 
 impl Finding {
     /// In one sentence.
-    pub fn message(&self) -> String {
+    pub(crate) fn message(&self) -> String {
         match self {
             Self::NeverLifts { .. }
             | Self::Stands { .. }
