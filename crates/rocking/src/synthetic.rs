@@ -115,7 +115,7 @@ pub fn earthquake(seed: u64, index: usize, p: f64) -> Record {
     let dt = if random.sign() > 0.0 { 0.005 } else { 0.01 };
     let pga = GRAVITY * random.between(EARTHQUAKE_PGA_G.0, EARTHQUAKE_PGA_G.1);
     let motion = noise::Noise {
-        omega_g: random.log_between(9.0, 36.0),
+        omega_g: random.octaves_above(9.0, 2.0),
         zeta_g: random.between(0.2, 0.6),
         duration: random.between(20.0, 60.0),
     };

@@ -30,6 +30,13 @@ impl Random {
         low * (high / low).powf(self.unit())
     }
 
+    /// From `low` to so many octaves above it, evenly in the logarithm. `log_between` is not for
+    /// these: compilers turn a power of 2 or 4 into `exp2` in some builds and not in others, and
+    /// the last digit differs.
+    pub(super) fn octaves_above(&mut self, low: f64, octaves: f64) -> f64 {
+        low * (octaves * self.unit()).exp2()
+    }
+
     /// +1 or -1.
     pub(super) fn sign(&mut self) -> f64 {
         if self.unit() < 0.5 { 1.0 } else { -1.0 }
