@@ -13,8 +13,8 @@ import sys
 from pathlib import Path
 
 CRATES = (
-    "elementary files strong-motion rocking dynamics frames frequency-response landing fixed-steps validation results cases "
-    "springs parameters decks report run-folder web".split()
+    "elementary files parallel strong-motion rocking dynamics frames frequency-response landing "
+    "fixed-steps validation results cases springs parameters decks report run-folder web".split()
 )
 SCRIPTS = ["core.js", "plot.js", "drawing.js", "working.js", "inputs.js", "app.js", "begin.js"]
 FOLDER = Path("crates/web/page")

@@ -22,8 +22,8 @@ use fixed_steps::{
     measured::{ErrorsOverMotions, WellConditioned},
     recipe::UnitNumbers,
 };
-use rand::{Rng, SeedableRng};
-use rand_chacha::ChaCha8Rng;
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
 use rocking::structure::{Body, Structure};
 use springs::fixed_steps::{LONGEST, design};

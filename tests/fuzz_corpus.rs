@@ -3,8 +3,8 @@
 
 use std::{fs, path::Path};
 
-use rand::{Rng, SeedableRng};
-use rand_chacha::ChaCha8Rng;
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
 
 #[path = "../fuzz/checks.rs"]

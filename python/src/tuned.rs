@@ -86,8 +86,8 @@ impl Tuned {
         lines(&self.run).into_iter().map(one_line).collect()
     }
 
-    /// Write springs, histories, figures, decks. Decks that a program cannot hold are left out:
-    /// each is named, with the reason.
+    /// Write springs, histories, figures (SVG), decks. Decks that a program cannot hold are left
+    /// out: each is named, with the reason.
     #[pyo3(signature = (folder, figures = true))]
     fn save(&self, py: Python<'_>, folder: PathBuf, figures: bool) -> PyResult<Vec<String>> {
         let left_out =

@@ -6,7 +6,6 @@ use std::{
 };
 
 use clap::Args;
-use rayon::prelude::*;
 
 use super::{CommandError, run::threads, terminal};
 use dynamics::spring::{Design, Springs};
@@ -54,10 +53,11 @@ pub fn run(o: &ChartOptions) -> Result<(), CommandError> {
             }
         }
     }
-    let rows: Vec<ChartRow> = all
-        .into_par_iter()
-        .map(|(kind, geometry)| ChartRow { kind, geometry, springs: geometry.springs() })
-        .collect();
+    let rows = parallel::map(&all, |&(kind, geometry)| ChartRow {
+        kind,
+        geometry,
+        springs: geometry.springs(),
+    });
     let folder = Folder::begin(
         &o.out,
         "chart",

@@ -8,7 +8,6 @@ use std::{
 };
 
 use clap::Args;
-use rayon::prelude::*;
 use serde::Serialize;
 
 use super::{CommandError, common, progress::Progress, run::threads, terminal};
@@ -127,8 +126,7 @@ impl RecordsSource {
             }
             Ok(notices)
         };
-        let notices: Vec<Result<Vec<Notice>, RecordError>> =
-            self.files.par_iter().map(read).collect();
+        let notices: Vec<Result<Vec<Notice>, RecordError>> = parallel::map(&self.files, read);
         let mut unread = Vec::new();
         let files = std::mem::take(&mut self.files);
         for (file, notices) in files.into_iter().zip(notices) {

@@ -1,4 +1,5 @@
-//! Pictures of the results: plain numbers in, an SVG and a PNG out, no physics.
+//! Pictures of the results: plain numbers in, an SVG out, and a PNG with the feature `png`; no
+//! physics.
 //!
 //! Each figure is a module with one input struct of slices and labels and one function
 //! `draw(&data)`, which gives a [`Sheet`]: an SVG, which plotters writes, and a PNG of the same
@@ -38,6 +39,7 @@ mod lettering;
 mod mark;
 mod number;
 mod panel;
+#[cfg(feature = "png")]
 mod pixels;
 mod plot;
 mod scale;

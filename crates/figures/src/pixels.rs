@@ -1,5 +1,5 @@
-//! Shapes as pixels, which tiny-skia draws, text as outlines of the embedded font: what a viewer of
-//! the SVG draws from the fonts of its system.
+//! Shapes as pixels of a PNG, which tiny-skia draws, text as outlines of the embedded font: what a
+//! viewer of the SVG draws from the fonts of its system.
 
 use plotters::style::RGBAColor;
 use plotters::style::text_anchor::HPos;
@@ -8,8 +8,36 @@ use tiny_skia::{
 };
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
+use super::FigureError;
 use super::font;
 use super::shape::{FINE, FinePoint, Shape, TextLine, all_fine, fine, fine_length, polyline};
+
+/// The picture of this width and height (pixel) as a PNG file.
+///
+/// # Errors
+/// [`FigureError::Draw`] for a size that cannot be, and for what the encoder refuses.
+pub(crate) fn file(size: (u32, u32), shapes: &[Shape]) -> Result<Vec<u8>, FigureError> {
+    let draw = |reason: String| FigureError::Draw { reason };
+    let pixels = drawn(size, shapes).ok_or_else(|| draw("no size".into()))?;
+    encode(&pixels).map_err(|e| draw(e.to_string()))
+}
+
+/// Red, green and blue, quickly compressed: a run is waited for, and its figures are of lines and
+/// flat areas.
+fn encode(pixels: &Pixmap) -> Result<Vec<u8>, png::EncodingError> {
+    // on white nothing shines through
+    let rgb: Vec<u8> =
+        pixels.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, pixels.width(), pixels.height());
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::Fast);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&rgb)?;
+    writer.finish()?;
+    Ok(file)
+}
 
 /// All shapes on white, of this width and height (pixel); none of a size that cannot be.
 pub(crate) fn drawn((width, height): (u32, u32), shapes: &[Shape]) -> Option<Pixmap> {

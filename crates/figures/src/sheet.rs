@@ -1,12 +1,12 @@
-//! A finished picture: its SVG, its PNG, and the files of both.
+//! A finished picture: its SVG, and its files.
 
-use std::path::Path;
-
-use tiny_skia::Pixmap;
+use std::path::{Path, PathBuf};
 
 use super::FigureError;
+#[cfg(feature = "png")]
 use super::pixels;
 use super::plot::Plot;
+#[cfg(feature = "png")]
 use super::shape::Shape;
 use files::whole_file;
 
@@ -20,60 +20,28 @@ pub struct Sheet {
     /// Height of the picture (pixels).
     pub height: u32,
     /// What is drawn, for the PNG.
+    #[cfg(feature = "png")]
     pub(crate) shapes: Vec<Shape>,
     /// Panels over time, for a page that zooms and tells values.
     pub plots: Vec<Plot>,
 }
 
 impl Sheet {
-    /// The picture in pixels, as a PNG file; text in the embedded font.
-    ///
-    /// # Errors
-    /// [`FigureError::Draw`] for a size that cannot be, and for what the encoder refuses.
-    pub(crate) fn png(&self) -> Result<Vec<u8>, FigureError> {
-        let draw = |reason: String| FigureError::Draw { reason };
-        let pixels = pixels::drawn((self.width, self.height), &self.shapes)
-            .ok_or_else(|| draw("no size".into()))?;
-        self.encode(&pixels).map_err(|e| draw(e.to_string()))
-    }
-
-    /// Red, green and blue, quickly compressed: a run is waited for, and its figures are of lines
-    /// and flat areas.
-    fn encode(&self, pixels: &Pixmap) -> Result<Vec<u8>, png::EncodingError> {
-        // on white nothing shines through
-        let rgb: Vec<u8> = pixels
-            .data()
-            .chunks_exact(4)
-            .flat_map(|pixel| [pixel[0], pixel[1], pixel[2]])
-            .collect();
-        let mut file = Vec::new();
-        let mut encoder = png::Encoder::new(&mut file, self.width, self.height);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.set_depth(png::BitDepth::Eight);
-        encoder.set_compression(png::Compression::Fast);
-        let mut writer = encoder.write_header()?;
-        writer.write_image_data(&rgb)?;
-        writer.finish()?;
-        Ok(file)
-    }
-
-    /// Write the PNG under its name and the SVG beside it; each whole or not at all.
+    /// Write the SVG beside the name of the PNG, and with the feature `png` the PNG, too; each
+    /// whole or not at all.
     ///
     /// # Errors
     /// [`FigureError::Write`] when the folder is missing or may not be written to; nothing is left
     /// behind then.
     pub fn save(&self, png: &Path) -> Result<(), FigureError> {
-        let pixels = self.png()?;
-        let files = [
-            (png.to_path_buf(), pixels.as_slice()),
-            (png.with_extension("svg"), self.svg.as_bytes()),
-        ];
-        for (path, bytes) in files {
-            whole_file::write(&path, bytes)
-                .map_err(|source| FigureError::Write { path, source })?;
-        }
-        Ok(())
+        #[cfg(feature = "png")]
+        write(png.to_path_buf(), &pixels::file((self.width, self.height), &self.shapes)?)?;
+        write(png.with_extension("svg"), self.svg.as_bytes())
     }
+}
+
+fn write(path: PathBuf, bytes: &[u8]) -> Result<(), FigureError> {
+    whole_file::write(&path, bytes).map_err(|source| FigureError::Write { path, source })
 }
 
 #[cfg(test)]
@@ -94,10 +62,13 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("sheet.png");
         sheet().save(&path).unwrap();
-        let picture = image::open(&path).unwrap().to_rgb8();
-        assert_eq!(picture.dimensions(), (1600, 48));
-        assert_eq!(picture.get_pixel(15, 15).0, [0, 114, 178]);
-        assert_eq!(picture.get_pixel(25, 15).0, [255, 255, 255]);
+        #[cfg(feature = "png")]
+        {
+            let picture = image::open(&path).unwrap().to_rgb8();
+            assert_eq!(picture.dimensions(), (1600, 48));
+            assert_eq!(picture.get_pixel(15, 15).0, [0, 114, 178]);
+            assert_eq!(picture.get_pixel(25, 15).0, [255, 255, 255]);
+        }
         let svg = std::fs::read_to_string(folder.path().join("sheet.svg")).unwrap();
         assert!(svg.starts_with("<svg ") && svg.trim_end().ends_with("</svg>"), "{svg}");
     }
@@ -108,9 +79,10 @@ mod tests {
         let missing = folder.path().join("missing").join("sheet.png");
         assert!(matches!(sheet().save(&missing), Err(FigureError::Write { .. })));
         // The name is taken by a folder: the rename fails after the bytes were written.
+        std::fs::create_dir(folder.path().join("taken.svg")).unwrap();
         let taken = folder.path().join("taken.png");
         std::fs::create_dir(&taken).unwrap();
         assert!(matches!(sheet().save(&taken), Err(FigureError::Write { .. })));
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
     }
 }

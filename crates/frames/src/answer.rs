@@ -303,7 +303,7 @@ impl ElasticAnswer {
             Ok::<_, AnswerError>((history, drift))
         };
         let (histories, held) =
-            rayon::join(|| ElasticHistories::new(assembled, springs, record, reference), held);
+            parallel::join(|| ElasticHistories::new(assembled, springs, record, reference), held);
         let (histories, (fixed, fixed_drift)) = (histories?, held?);
         let compared = histories.compared(record, &[]);
         let [reference, fem] =

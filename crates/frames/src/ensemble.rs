@@ -11,7 +11,6 @@
 //! twenty is further apart than 0.39 (Smirnov 1939).
 
 use nalgebra::DVector;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::{
@@ -92,22 +91,21 @@ impl Ensemble {
         let q = assembled.upright()?;
         let scale = |i: usize| 1.0 + CHANGE * (2.0 * i as f64 / (MOTIONS - 1) as f64 - 1.0);
         let both = |i: usize| {
-            let (reference, fem) = rayon::join(
+            let (reference, fem) = parallel::join(
                 || on_rigid_ground(assembled, &q, record, (scale(i), most_work)),
                 || on_springs(assembled, springs, record, scale(i)),
             );
             [reference, fem]
         };
         // where the outermost two are out of work, those between are not tried
-        let (first, last) = rayon::join(|| both(0), || both(MOTIONS - 1));
+        let (first, last) = parallel::join(|| both(0), || both(MOTIONS - 1));
         let out_of_work =
             |pair: &[Near; 2]| pair.iter().any(|near| matches!(near, Near::OutOfWork));
         if out_of_work(&first) && out_of_work(&last) {
             return Ok((None, MOTIONS));
         }
-        let between = (1..MOTIONS - 1).into_par_iter().with_max_len(1).map(both);
         let mut all = vec![first];
-        all.extend(between.collect::<Vec<_>>());
+        all.extend(parallel::map_range(1..MOTIONS - 1, both));
         all.push(last);
         let followed = |pair: &[Near; 2]| match pair {
             [Near::Peaks(reference), Near::Peaks(fem)] => Some([*reference, *fem]),

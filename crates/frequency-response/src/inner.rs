@@ -120,8 +120,8 @@ pub fn fit(mu: f64, target: &Target, bounds: &Bounds) -> Result<Fit, FitError> {
 
 /// Fits of the default target for many mass ratios, in their order; in parallel.
 pub fn families(mus: &[f64]) -> Result<Vec<Fit>, FitError> {
-    use rayon::prelude::*;
-    mus.par_iter().map(|&mu| fit(mu, &Target::default(), &Bounds::default())).collect()
+    let fits = parallel::map(mus, |&mu| fit(mu, &Target::default(), &Bounds::default()));
+    fits.into_iter().collect()
 }
 
 /// Starts for stage 1: K about the closed forms' (1/2 for small mu, mu - 1 for large) and away from

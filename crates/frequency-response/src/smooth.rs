@@ -63,14 +63,14 @@ impl Smooth<'_> {
         })
     }
 
-    fn q(&self, z: &SearchParameters) -> Vec<f64> {
+    fn q(&self, z: &SearchParameters) -> Vector2<f64> {
         let share = |i: usize| {
             let (low, high) = (self.region.low[i], self.region.high[i]);
             // on a bound q would be infinite; where the bounds meet any q will do
             let share = if high > low { (z[i] - low) / (high - low) } else { 0.5 };
             share.clamp(1e-3, 1.0 - 1e-3)
         };
-        (0..2).map(|i| (share(i) / (1.0 - share(i))).ln()).collect()
+        Vector2::from_fn(|i, _| (share(i) / (1.0 - share(i))).ln())
     }
 
     /// The z that L-BFGS reaches from `start`, and its iterations. Where the line search gives up,
@@ -86,7 +86,7 @@ impl Smooth<'_> {
         let state = run.state();
         match state.get_best_param() {
             Some(q) if state.get_best_cost().is_finite() => {
-                (self.region.clamp(&self.z(&Vector2::new(q[0], q[1]))), state.get_iter())
+                (self.region.clamp(&self.z(q)), state.get_iter())
             }
             _ => (start, state.get_iter()),
         }
@@ -97,21 +97,20 @@ impl Smooth<'_> {
 struct SmoothProblem<'a>(&'a Smooth<'a>);
 
 impl CostFunction for SmoothProblem<'_> {
-    type Param = Vec<f64>;
+    type Param = Vector2<f64>;
     type Output = f64;
 
-    fn cost(&self, q: &Vec<f64>) -> Result<f64, Error> {
-        Ok(self.0.value(&self.0.z(&Vector2::new(q[0], q[1]))))
+    fn cost(&self, q: &Vector2<f64>) -> Result<f64, Error> {
+        Ok(self.0.value(&self.0.z(q)))
     }
 }
 
 impl Gradient for SmoothProblem<'_> {
-    type Param = Vec<f64>;
-    type Gradient = Vec<f64>;
+    type Param = Vector2<f64>;
+    type Gradient = Vector2<f64>;
 
-    fn gradient(&self, q: &Vec<f64>) -> Result<Vec<f64>, Error> {
-        let (_, slope) = gradient(|q| self.0.value(&self.0.z(&q)), &Vector2::new(q[0], q[1]));
-        Ok(vec![slope[0], slope[1]])
+    fn gradient(&self, q: &Vector2<f64>) -> Result<Vector2<f64>, Error> {
+        Ok(gradient(|q| self.0.value(&self.0.z(&q)), q).1)
     }
 }
 

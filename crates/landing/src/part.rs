@@ -21,6 +21,7 @@ use argmin::{
     core::{CostFunction, Error, Executor},
     solver::neldermead::NelderMead,
 };
+use nalgebra::Vector2;
 
 use super::{
     corners::CornerDynamics,
@@ -52,12 +53,12 @@ const SPREAD: f64 = 1e-9;
 /// Factors on mu and C.
 struct Search<F>(F);
 
-impl<F: Fn(&[f64]) -> f64> CostFunction for Search<F> {
-    type Param = Vec<f64>;
+impl<F: Fn(Vector2<f64>) -> f64> CostFunction for Search<F> {
+    type Param = Vector2<f64>;
     type Output = f64;
 
-    fn cost(&self, x: &Vec<f64>) -> Result<f64, Error> {
-        Ok((self.0)(x))
+    fn cost(&self, x: &Vector2<f64>) -> Result<f64, Error> {
+        Ok((self.0)(*x))
     }
 }
 
@@ -84,20 +85,20 @@ pub fn for_part(corners: &CornerDynamics, k: f64) -> Springs<Design<f64>> {
 fn sought(corners: &CornerDynamics, springs: &Springs<Design<f64>>) -> Springs<Design<f64>> {
     let Design { mu, omega_n_hz, .. } = springs.vertical;
     let (k, c) = (springs.vertical.k(), springs.vertical.c());
-    let at = |x: &[f64]| Springs {
+    let at = |x: Vector2<f64>| Springs {
         vertical: Design::from_kc(mu * x[0].exp(), k, c * x[1].exp(), omega_n_hz),
         ..*springs
     };
-    let left = |x: &[f64]| {
+    let left = |x: Vector2<f64>| {
         let PlaneLanding { deviation, changes, .. } = land(corners, &at(x));
         deviation * (1.0 + CHANGE * changes.iter().sum::<usize>().saturating_sub(FEWEST) as f64)
     };
-    let cost = |x: &[f64]| f64::max(left(x), left(&[x[0] + HEAVIER.ln(), x[1] + HEAVIER.ln()]));
-    let simplex = STARTS.map(|x| x.to_vec()).to_vec();
+    let cost = |x: Vector2<f64>| f64::max(left(x), left(x.add_scalar(HEAVIER.ln())));
+    let simplex = STARTS.map(Vector2::from).to_vec();
     let found = NelderMead::new(simplex).with_sd_tolerance(SPREAD).and_then(|solver| {
         Executor::new(Search(cost), solver).configure(|state| state.max_iters(STEPS)).run()
     });
-    found.ok().and_then(|result| result.state.best_param).map_or(*springs, |x| at(&x))
+    found.ok().and_then(|result| result.state.best_param).map_or(*springs, at)
 }
 
 #[cfg(test)]

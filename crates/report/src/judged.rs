@@ -1,9 +1,8 @@
 //! For how much of the record `tune verify` judges a run's deck, where that is not all of it.
 
-use rayon::join;
-
 use decks::{DeckExpectation, with_inertia};
 use frames::{answer::ElasticHistories, assembled::Assembled};
+use parallel::join;
 use parameters::{
     Parameters,
     predictability::{simulate, slightly_wider},

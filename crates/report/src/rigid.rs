@@ -79,7 +79,7 @@ impl RigidRun {
         let report =
             || HousnerReport::new(&job.body, case.restitution, &job.record, &job.rocking, friction);
         let ((both, mut parameters), ((paper, recovered), report)) =
-            rayon::join(own, || rayon::join(others, report));
+            parallel::join(own, || parallel::join(others, report));
         parameters.matched = Some(both.matched);
         parameters.match_with_members = both.with.as_ref().map(|with| with.matched);
         (parameters.paper_procedure, parameters.table_1) = (paper, recovered);

@@ -7,7 +7,6 @@ use std::{
     sync::atomic::{AtomicUsize, Ordering},
 };
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use decks::deck_steps;
@@ -55,31 +54,29 @@ pub fn front(job: &Job, progress: &(dyn Fn(usize, usize) + Sync)) -> Vec<Tradeof
     let done = AtomicUsize::new(0);
     progress(0, ladder.len());
     // the stiffest takes longest, and is begun first
-    let mut points: Vec<TradeoffPoint> = ladder
-        .iter()
-        .rev()
-        .par_bridge()
-        .filter_map(|&hz| {
-            let springs = if hz == chosen {
-                Some(job.springs)
-            } else {
-                springs_at_stiffness(&job.body, TAU * hz / job.body.p_squared().sqrt())
-            };
-            let arr = || job.paper.as_ref().and_then(|paper| paper_error(job, paper, hz));
-            let ours = || springs.map(|springs| error_and_cost(job, &springs));
-            let (arr, ours) = rayon::join(arr, ours);
-            progress(done.fetch_add(1, Ordering::Relaxed) + 1, ladder.len());
-            let (landing, (foot_force_weights, deck_steps)) = ours?;
-            Some(TradeoffPoint {
-                omega_n_hz: hz,
-                chosen: hz == chosen,
-                landing,
-                arr,
-                foot_force_weights,
-                deck_steps,
-            })
+    let begun = AtomicUsize::new(0);
+    let points = parallel::map_range(0..ladder.len(), |_| {
+        let hz = ladder[ladder.len() - 1 - begun.fetch_add(1, Ordering::Relaxed)];
+        let springs = if hz == chosen {
+            Some(job.springs)
+        } else {
+            springs_at_stiffness(&job.body, TAU * hz / job.body.p_squared().sqrt())
+        };
+        let arr = || job.paper.as_ref().and_then(|paper| paper_error(job, paper, hz));
+        let ours = || springs.map(|springs| error_and_cost(job, &springs));
+        let (arr, ours) = parallel::join(arr, ours);
+        progress(done.fetch_add(1, Ordering::Relaxed) + 1, ladder.len());
+        let (landing, (foot_force_weights, deck_steps)) = ours?;
+        Some(TradeoffPoint {
+            omega_n_hz: hz,
+            chosen: hz == chosen,
+            landing,
+            arr,
+            foot_force_weights,
+            deck_steps,
         })
-        .collect();
+    });
+    let mut points: Vec<TradeoffPoint> = points.into_iter().flatten().collect();
     points.sort_by(|a, b| a.omega_n_hz.total_cmp(&b.omega_n_hz));
     points
 }

@@ -34,7 +34,6 @@ mod walk;
 use crate::motion::Motion;
 use crate::scalar::{GRAVITY, Scalar, real};
 use crate::structure::Body;
-use rayon::prelude::*;
 use std::sync::Arc;
 
 /// How to solve.
@@ -229,14 +228,10 @@ fn together<'a, const V: bool>(
     while !walks.is_empty() {
         chunks.push(walks.drain(..walks.len().min(lanes::WIDTH)).collect::<Vec<_>>());
     }
-    let done: Vec<Vec<_>> = chunks
-        .into_par_iter()
-        .with_max_len(1)
-        .map(|chunk| {
-            let (places, together): (Vec<_>, Vec<_>) = chunk.into_iter().unzip();
-            places.into_iter().zip(lanes::walk(together)).collect()
-        })
-        .collect();
+    let done: Vec<Vec<_>> = parallel::map_owned(chunks, |chunk| {
+        let (places, together): (Vec<_>, Vec<_>) = chunk.into_iter().unzip();
+        places.into_iter().zip(lanes::walk(together)).collect()
+    });
     placed.extend(done.into_iter().flatten());
 }
 

@@ -4,8 +4,6 @@ mod response;
 
 use std::path::Path;
 
-use rayon::prelude::*;
-
 use crate::FolderError;
 use cases::Case;
 use figures::{EventMark, Figure, FigureError, Sheet, brief, short};
@@ -75,10 +73,15 @@ impl Pictures<'_> {
             (FRONT, "What stiffer springs gain in accuracy, and what they cost.", Self::front),
             (CANDIDATES, "Every pair of Ωₙ that the paper's procedure tried.", Self::candidates),
         ];
-        let drawn = all.par_iter().map(|(name, caption, draw)| {
+        let drawn = parallel::map(&all, |(name, caption, draw)| {
             Ok(draw(self)?.map(|sheet| Figure { name, caption, sheet }))
         });
-        Ok(drawn.collect::<Result<Vec<_>, FigureError>>()?.into_iter().flatten().collect())
+        Ok(drawn
+            .into_iter()
+            .collect::<Result<Vec<_>, FigureError>>()?
+            .into_iter()
+            .flatten()
+            .collect())
     }
 
     /// A title, and below it the structure, the record, its scale and Omega_n.
@@ -305,5 +308,5 @@ fn event(end: &Option<(f64, String)>) -> Option<EventMark<'_>> {
 /// A figure that cannot be rasterised or written.
 pub(crate) fn save(dir: &Path, figures: &[Figure]) -> Result<(), FolderError> {
     let save = |figure: &Figure| figure.sheet.save(&dir.join(figure.name).with_extension("png"));
-    Ok(figures.par_iter().map(save).collect::<Result<(), FigureError>>()?)
+    Ok(parallel::map(figures, save).into_iter().collect::<Result<(), FigureError>>()?)
 }

@@ -88,11 +88,13 @@ pub fn save(rigid: &RigidRun, out: &Path, output: Output) -> Result<Vec<String>,
         true => Pictures { case, job, both, front }.draw(),
         false => Ok(Vec::new()),
     };
-    let (left_out, figures) = rayon::join(written, figures);
+    let (left_out, figures) = parallel::join(written, figures);
     let (left_out, figures) = (left_out?, figures?);
     let run = run.with_decks(&left_out);
-    let (saved, page) =
-        rayon::join(|| pictures::save(out, &figures), || write_report(out, output, &run, &figures));
+    let (saved, page) = parallel::join(
+        || pictures::save(out, &figures),
+        || write_report(out, output, &run, &figures),
+    );
     saved.and(page)?;
     folder.finish()?;
     Ok(left_out)

@@ -8,8 +8,6 @@
 
 use std::f64::consts::TAU;
 
-use rayon::prelude::*;
-
 use super::{
     descent::{LeastSquares, descend},
     landing_simulation::{Criterion, WholeModel},
@@ -94,18 +92,15 @@ impl LeastSquares for LandingsAndUplifts<'_> {
 
     fn gradients(&self, z: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
         let now = self.residuals(z);
-        let slopes: Vec<Vec<f64>> = (0..z.len())
-            .into_par_iter()
-            .map(|i| {
-                let moved = |by: f64| {
-                    let mut z = z.to_vec();
-                    z[i] += by;
-                    self.residuals(&z)
-                };
-                let ends = moved(DIFFERENCE).into_iter().zip(moved(-DIFFERENCE));
-                ends.map(|(up, down)| (up - down) / (2.0 * DIFFERENCE)).collect()
-            })
-            .collect();
+        let slopes: Vec<Vec<f64>> = parallel::map_range(0..z.len(), |i| {
+            let moved = |by: f64| {
+                let mut z = z.to_vec();
+                z[i] += by;
+                self.residuals(&z)
+            };
+            let ends = moved(DIFFERENCE).into_iter().zip(moved(-DIFFERENCE));
+            ends.map(|(up, down)| (up - down) / (2.0 * DIFFERENCE)).collect()
+        });
         let rows = (0..now.len()).map(|r| slopes.iter().map(|slope| slope[r]).collect()).collect();
         (now, rows)
     }
@@ -150,7 +145,7 @@ pub fn follow(
     // side by side, each with a share of its own
     let shares: Vec<_> = ways.iter().map(|way| (*way, effort.share(ways.len() as u64))).collect();
     let one = |(way, share): &(_, Effort)| path(body, restitution, bracket, *way, share);
-    let found: Vec<_> = shares.par_iter().with_max_len(1).map(one).collect();
+    let found = parallel::map(&shares, one);
     shares.iter().for_each(|(_, share)| effort.join(share));
     found.into_iter().flatten().collect()
 }

@@ -3,8 +3,8 @@
 //! the constants of its table 1, positive weights alone).
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
-use rand::Rng;
-use rand_chacha::ChaCha8Rng;
+use rand::RngExt;
+use rand::rngs::ChaCha8Rng;
 
 /// A search on its way.
 pub(super) struct CmaEs {

@@ -23,8 +23,6 @@
 //! and a stance of 48 is tried, too, if the integrator ends stiff modes. What is told of the
 //! springs on synthetic motions is then measured on 48 that chose nothing.
 
-use rayon::prelude::*;
-
 use super::{
     landing_simulation::differs_from_housner,
     suite::{JudgedOn, Suites},
@@ -114,10 +112,10 @@ impl ProgramSuites {
     fn of(body: &Body<f64>, suites: &Suites, asked: bool, effort: &Effort) -> Self {
         let of = |suites: &Suites, on: JudgedOn| -> Vec<ReferenceHistory> {
             let motions: Vec<_> = suites.motions(on).collect();
-            let answers = motions
-                .into_par_iter()
-                .map(|(dt, accel)| ReferenceHistory::new(body, dt, accel.to_vec()));
-            answers.flatten().collect()
+            let answers = parallel::map(&motions, |(dt, accel)| {
+                ReferenceHistory::new(body, *dt, accel.to_vec())
+            });
+            answers.into_iter().flatten().collect()
         };
         let mut synthetic = of(suites, JudgedOn::Synthetic);
         if !asked {
@@ -240,8 +238,7 @@ impl ProgramSprings {
         let springs = &self.springs;
         let model = FixedStepBody::new(&springs.body, &springs.chains());
         let settings = self.program.settings(springs.chains().vertical.k1, springs.body.mass);
-        let all = motions.par_iter().map(|motion| motion.errors(&model, settings));
-        let all: Vec<_> = all.collect();
+        let all = parallel::map(motions, |motion| motion.errors(&model, settings));
         (!all.is_empty()).then(|| ErrorsOverMotions::of(all))
     }
 }

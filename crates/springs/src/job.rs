@@ -7,7 +7,7 @@ mod procedure;
 
 use std::f64::consts::TAU;
 
-use rayon::join;
+use parallel::join;
 
 use super::{
     fixed_steps::ProgramSprings,

@@ -29,8 +29,6 @@ mod landing;
 pub mod report;
 mod uplift;
 
-use rayon::prelude::*;
-
 use dynamics::compare::LEAST_LEAN;
 use dynamics::{
     effort::Effort,
@@ -125,10 +123,8 @@ impl WholeModel {
         let chains = springs.chains(body.mass);
         let n = self.releases.len();
         let (w_e, w_l) = (self.weight_restitution(), (self.uplifts.len() as f64).sqrt().recip());
-        let each: Vec<Vec<f64>> = (0..n + self.uplifts.len())
-            .into_par_iter()
-            .with_max_len(1)
-            .map(|i| match self.releases.get(i) {
+        let each: Vec<Vec<f64>> =
+            parallel::map_range(0..n + self.uplifts.len(), |i| match self.releases.get(i) {
                 Some(release) => match release.run(body, &chains, (control, effort)) {
                     Some(Left { kept, growing, air }) => {
                         let e = if kept > 0.0 { kept.sqrt() / self.restitution } else { 0.0 };
@@ -144,8 +140,7 @@ impl WholeModel {
                 None => {
                     vec![self.uplifts[i - n].uplift_error(body, &chains, (control, effort)) * w_l]
                 }
-            })
-            .collect();
+            });
         each.into_iter().flatten().collect()
     }
 

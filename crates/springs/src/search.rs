@@ -9,9 +9,8 @@
 
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
-use rand::{Rng, SeedableRng};
-use rand_chacha::ChaCha8Rng;
-use rayon::prelude::*;
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt, SeedableRng};
 
 use super::cma_es::CmaEs;
 use dynamics::effort::Effort;
@@ -67,7 +66,7 @@ pub(super) fn search(
                 low.iter().zip(high).map(|(&low, &high)| random.random_range(low..=high)).collect()
             })
             .collect();
-        let costs: Vec<f64> = scattered.par_iter().with_max_len(1).map(|z| bounded(z)).collect();
+        let costs = parallel::map(&scattered, |z| bounded(z));
         let first = (0..SCATTERED).min_by(|&a, &b| costs[a].total_cmp(&costs[b])).unwrap_or(0);
         done += SCATTERED;
         let mut walk = CmaEs::new(&scattered[first], STEP, GENERATION);
@@ -80,8 +79,7 @@ pub(super) fn search(
             && walk.width() > SMALLEST
         {
             let points: Vec<_> = (0..GENERATION).map(|_| walk.draw(&mut random)).collect();
-            let costs: Vec<f64> =
-                points.par_iter().with_max_len(1).map(|z| bounded(z.as_slice())).collect();
+            let costs = parallel::map(&points, |z| bounded(z.as_slice()));
             done += GENERATION;
             let mut order: Vec<usize> = (0..GENERATION).collect();
             order.sort_by(|&a, &b| costs[a].total_cmp(&costs[b]));

@@ -8,8 +8,6 @@ mod reference;
 
 use std::ops::Range;
 
-use rayon::prelude::*;
-
 pub use accuracy::LOOSER;
 pub(super) use accuracy::quantile;
 pub use accuracy::{Accuracy, JudgedOn, MeasuredErrors, PeakAccuracy, Statistic};
@@ -99,7 +97,7 @@ impl Suites {
             first(SYNTHETIC, 0..LOOKED_AT, effort, |i| well(synthetic::record(seed, i, p, alpha)))
         };
         // side by side: the last motion of a batch leaves a core to the other suite
-        let (mut earthquakes, synthetic) = rayon::join(as_they_are, synthetic);
+        let (mut earthquakes, synthetic) = parallel::join(as_they_are, synthetic);
         let missing = EARTHQUAKES - earthquakes.len();
         let mild = first(missing, 0..LOOKED_AT, effort, |i| mild(milder(earthquake(i), alpha)?));
         let scaled_down = mild.len();
@@ -295,7 +293,7 @@ fn first(
     let mut begin = motions.start;
     while trials.len() < count && begin < motions.end && !effort.stopped() {
         let end = (begin + (count - trials.len()).max(AT_A_TIME)).min(motions.end);
-        trials.par_extend((begin..end).into_par_iter().with_max_len(1).filter_map(&pick));
+        trials.extend(parallel::map_range(begin..end, &pick).into_iter().flatten());
         begin = end;
     }
     trials.truncate(count);

@@ -2,8 +2,6 @@
 
 use std::{borrow::Cow, f64::consts::FRAC_PI_2, ops::Range, sync::Arc};
 
-use rayon::prelude::*;
-
 use super::{
     SweepError,
     plan::{Cell, Plan, Subject},
@@ -44,23 +42,16 @@ pub(crate) fn rows(
     };
     let groups: Vec<&[Cell]> = cells.chunk_by(same).collect();
     let together = if springs.is_some() { SIDE_BY_SIDE } else { LOCK_STEP };
-    let rows: Vec<Result<Vec<HistoryRow>, SweepError>> = groups
-        .into_par_iter()
-        .with_max_len(1)
-        .map(|group| {
-            let ground = UnscaledGround::new(plan, group[0])?;
-            let rows: Vec<Vec<HistoryRow>> = group
-                .par_chunks(together)
-                .with_max_len(1)
-                .map(|cells| {
-                    let rows = ground.rows(plan, springs, cells);
-                    done(cells.len() as u64);
-                    rows
-                })
-                .collect();
-            Ok(rows.into_iter().flatten().collect())
-        })
-        .collect();
+    let rows = parallel::map(&groups, |group| -> Result<Vec<HistoryRow>, SweepError> {
+        let ground = UnscaledGround::new(plan, group[0])?;
+        let chunks: Vec<&[Cell]> = group.chunks(together).collect();
+        let rows = parallel::map(&chunks, |cells| {
+            let rows = ground.rows(plan, springs, cells);
+            done(cells.len() as u64);
+            rows
+        });
+        Ok(rows.into_iter().flatten().collect())
+    });
     Ok(rows.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
 }
 

@@ -17,8 +17,6 @@
 
 use std::{ops::Range, sync::Arc};
 
-use rayon::prelude::*;
-
 use super::{
     SweepError,
     history::{self, WantedHistory},
@@ -95,15 +93,11 @@ pub(crate) fn rows(
     done: &(dyn Fn(u64) + Sync),
 ) -> Result<Vec<OverturningRow>, SweepError> {
     let cells: Vec<u64> = cells.collect();
-    let rows: Vec<Vec<OverturningRow>> = cells
-        .into_par_iter()
-        .with_max_len(1)
-        .map(|index| {
-            let rows = of_cell(plan, springs, plan.cell(index));
-            done(1);
-            rows
-        })
-        .collect();
+    let rows = parallel::map(&cells, |&index| {
+        let rows = of_cell(plan, springs, plan.cell(index));
+        done(1);
+        rows
+    });
     Ok(rows.into_iter().flatten().collect())
 }
 

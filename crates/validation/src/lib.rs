@@ -48,8 +48,6 @@ mod statistics;
 mod stream;
 pub mod verdict;
 
-use rayon::prelude::*;
-
 pub use peaks::{HousnerForces, PeakErrors};
 pub use row::{RecordOutcome, Row, Suite};
 pub use statistics::{Confusion, GeometricMean, PREDICTABLE, Quantiles, Summary, Validation};
@@ -92,11 +90,10 @@ impl Validator {
         done: impl Fn(usize) + Sync,
     ) -> Result<Validation, E> {
         let mut rows = Vec::with_capacity(n);
-        let batch = BATCH.max(BATCH_A_THREAD * rayon::current_num_threads());
+        let batch = BATCH.max(BATCH_A_THREAD * parallel::threads());
         for begin in (0..n).step_by(batch) {
             let end = (begin + batch).min(n);
-            let read: Vec<Result<Record, E>> =
-                (begin..end).into_par_iter().with_max_len(1).map(&record).collect();
+            let read = parallel::map_range(begin..end, &record);
             let records = read.into_iter().collect::<Result<Vec<Record>, E>>()?;
             rows.extend(self.judge(&records));
             done(end);

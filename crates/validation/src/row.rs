@@ -2,7 +2,6 @@
 
 use std::{borrow::Cow, f64::consts::FRAC_PI_2};
 
-use rayon::prelude::*;
 use serde::Serialize;
 
 use super::{HousnerForces, Validator, stream::ComparisonObserver};
@@ -168,8 +167,7 @@ impl HousnerAnswer<'_> {
 impl Validator {
     /// Run both models over records, the finite element histories side by side.
     pub(crate) fn judge(&self, records: &[Record]) -> Vec<Row> {
-        let answers: Vec<HousnerAnswer> =
-            records.par_iter().with_max_len(1).map(|record| self.answer(record)).collect();
+        let answers = parallel::map(records, |record| self.answer(record));
         let cases: Vec<fem::Analysis> =
             answers.iter().map(|answer| self.case(&answer.record)).collect();
         let watch = |i: usize| {
@@ -177,8 +175,10 @@ impl Validator {
                 .with_forces(&answers[i].forces)
         };
         let followed = fem::histories(&cases, watch);
-        let both = answers.par_iter().with_max_len(1).zip(followed);
-        both.map(|(answer, (stream, finish))| self.row(answer, &stream, &finish)).collect()
+        parallel::map_range(0..answers.len(), |i| {
+            let (stream, finish) = &followed[i];
+            self.row(&answers[i], stream, finish)
+        })
     }
 
     fn answer<'a>(&self, record: &'a Record) -> HousnerAnswer<'a> {

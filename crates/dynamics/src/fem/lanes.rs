@@ -8,8 +8,6 @@ mod kernel;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use rayon::prelude::*;
-
 use super::{
     Analysis, Finish, control::HistoryOutcome, model::Model, observer::Observer, run::TimeLoop,
     step::Stages,
@@ -27,22 +25,14 @@ pub fn histories<O: Observer + Send>(
 ) -> Vec<(O, Finish)> {
     let models: Vec<Model> = cases.iter().map(Analysis::model).collect();
     let next = AtomicUsize::new(0);
-    let threads = rayon::current_num_threads().min(cases.len().div_ceil(WIDTH)).max(1);
-    let mut done: Vec<(usize, O, Finish)> = (0..threads)
-        .into_par_iter()
-        .with_max_len(1)
-        .flat_map_iter(|_| {
-            let mut batch = Batch {
-                cases,
-                models: &models,
-                next: &next,
-                observer: &observer,
-                done: Vec::new(),
-            };
-            batch.follow();
-            batch.done
-        })
-        .collect();
+    let threads = parallel::threads().min(cases.len().div_ceil(WIDTH)).max(1);
+    let done = parallel::map_range(0..threads, |_| {
+        let mut batch =
+            Batch { cases, models: &models, next: &next, observer: &observer, done: Vec::new() };
+        batch.follow();
+        batch.done
+    });
+    let mut done: Vec<(usize, O, Finish)> = done.into_iter().flatten().collect();
     done.sort_by_key(|(index, ..)| *index);
     done.into_iter().map(|(_, observer, finish)| (observer, finish)).collect()
 }

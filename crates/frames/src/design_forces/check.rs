@@ -36,10 +36,10 @@ impl Variants {
                 .map_err(|_| EquilibriumError::NoRest { lean: 0.0 })
         });
         let finer = finer.transpose()?;
-        let (doubled, (softer, stiffer)) = rayon::join(
+        let (doubled, (softer, stiffer)) = parallel::join(
             || finer.map(|finer| follow(&finer.frame, springs)).transpose(),
             || {
-                rayon::join(
+                parallel::join(
                     || follow(&assembled.frame, &scaled(springs, 1.0 / FACTOR)),
                     || follow(&assembled.frame, &scaled(springs, FACTOR)),
                 )

@@ -99,7 +99,7 @@ pub fn growth(
         ReferenceWalk::new(mechanics, ground, start, options).run(apart);
         factor
     };
-    let (scaled, landed) = rayon::join(
+    let (scaled, landed) = parallel::join(
         || twin(&ReferenceOptions { scale: options.scale * (1.0 + d), ..*options }),
         || twin(&ReferenceOptions { kept: options.kept * (1.0 - d), ..*options }),
     );

@@ -1,8 +1,8 @@
 //! Random structures and ground motions from a seed.
 
 use frames::{Mechanics, Pier};
-use rand::{Rng, SeedableRng};
-use rand_chacha::ChaCha8Rng;
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt, SeedableRng};
 
 /// Numbers from a seed.
 pub struct Random(ChaCha8Rng);

@@ -11,8 +11,6 @@
 //! stepped as the program does, on the motions that the structure's other springs are judged on and
 //! on the record, and the one is kept that loses fewer of them, then the one that errs less.
 
-use rayon::prelude::*;
-
 use super::{
     design::{CornerSprings, with_vertical},
     stand,
@@ -134,8 +132,7 @@ impl ElasticProgramSprings {
             }
             stepped(&suite.model, &self.springs.corners, self.settings, trial)
         };
-        let all: Vec<Option<StepErrors>> = trials.par_iter().with_max_len(1).map(one).collect();
-        let all: Vec<StepErrors> = all.into_iter().flatten().collect();
+        let all: Vec<StepErrors> = parallel::map(&trials, one).into_iter().flatten().collect();
         (!all.is_empty()).then(|| ErrorsOverMotions::of(all))
     }
 }

@@ -2,7 +2,6 @@
 //! structure, earthquake-like motions, and the record at hand, each over the part in which the
 //! reference can be predicted.
 
-use rayon::prelude::*;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::{
@@ -172,15 +171,13 @@ impl ElasticSuite {
         let times = (RELEASE / p / SAMPLES, RELEASE / p);
         let released =
             |lean: f64| ElasticTrial::released_within(&model, lean * alpha, times, effort);
-        let releases: Vec<ElasticTrialOutcome> =
-            LEANS.par_iter().with_max_len(1).map(|lean| released(*lean)).collect();
+        let releases = parallel::map(&LEANS, |lean| released(*lean));
         let motion = |i: usize| match i % 2 {
             0 => synthetic::record(SEED, i / 2, p, alpha),
             _ => synthetic::earthquake(SEED, i / 2, p),
         };
         let shaken = |i: usize| ElasticTrial::shaken_within(&model, &motion(i), effort);
-        let motions: Vec<ElasticTrialOutcome> =
-            (0..LOOKED_AT).into_par_iter().with_max_len(1).map(shaken).collect();
+        let motions = parallel::map_range(0..LOOKED_AT, shaken);
         let record =
             record.map(|(record, reference)| ElasticTrial::beside(&model, record, reference));
         let all = || releases.iter().chain(&motions).chain(&record);
@@ -247,7 +244,7 @@ impl ElasticSuite {
                 trial.judge_within(&self.model, springs, self.forces.as_ref(), (control, effort))
             }
         };
-        let judged: Vec<_> = trials.par_iter().with_max_len(1).map(judge).collect();
+        let judged = parallel::map(trials, judge);
         let sorted = |i: usize| {
             let mut errors: Vec<f64> = judged.iter().map(|judged| judged.errors[i]).collect();
             errors.sort_by(f64::total_cmp);

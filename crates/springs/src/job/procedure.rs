@@ -2,8 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use rayon::prelude::*;
-
 use super::{CEILING_HZ, JobError, evaluate};
 use crate::{
     paper_procedure::outer::{self, Benchmark, Bracket, Refinement},
@@ -24,8 +22,7 @@ pub(super) struct Procedure<'a> {
 impl<'a> Procedure<'a> {
     pub(crate) fn new(case: &'a Case, benchmark: &'a Benchmark<'a>) -> Result<Self, JobError> {
         let fits = |mus: &[f64]| -> Result<Vec<Fit>, FitError> {
-            let found: Vec<_> =
-                mus.par_iter().map(|&mu| fit(mu, &case.target, &case.bounds)).collect();
+            let found = parallel::map(mus, |&mu| fit(mu, &case.target, &case.bounds));
             found.into_iter().collect()
         };
         let vertical = fits(&case.tuning.mass_ratios_vertical)?;

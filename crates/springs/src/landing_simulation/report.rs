@@ -9,7 +9,6 @@
 
 use std::ops::ControlFlow;
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::{
@@ -48,11 +47,8 @@ pub struct LandingRow {
 /// Landings of a body on these springs, which shall have the velocity restitution `restitution`;
 /// one whose run did not finish is left out.
 pub fn landings(body: &Body<f64>, chains: &Springs<Chain>, restitution: f64) -> Vec<LandingRow> {
-    LEANS
-        .par_iter()
-        .with_max_len(1)
-        .filter_map(|&lean| landing(body, chains, restitution, lean))
-        .collect()
+    let rows = parallel::map(&LEANS, |&lean| landing(body, chains, restitution, lean));
+    rows.into_iter().flatten().collect()
 }
 
 fn landing(

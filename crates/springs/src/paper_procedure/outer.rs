@@ -16,8 +16,6 @@ mod refinement;
 #[cfg(test)]
 mod tests;
 
-use rayon::prelude::*;
-
 pub(crate) use refinement::Refinement;
 
 use dynamics::{
@@ -323,12 +321,8 @@ fn sample(
     while !rest.is_empty() && (candidates.len() < BATCH || !benchmark.effort.stops()) {
         let (batch, after) = rest.split_at(size.min(rest.len()));
         (rest, size) = (after, (2 * size).min(BATCH));
-        let found: Vec<Candidate> = batch
-            .par_iter()
-            .with_max_len(1)
-            .map(|(pair, x)| benchmark.judge(&pair.springs(*x), best))
-            .collect();
-        candidates.extend(found);
+        let judge = |(pair, x): &(Pair, [f64; 2])| benchmark.judge(&pair.springs(*x), best);
+        candidates.extend(parallel::map(batch, judge));
         best = candidates
             .iter()
             .filter(|c| !c.abandoned)

@@ -1,8 +1,8 @@
 //! Random cases: structures, springs and records over more than any user has.
 
 use dynamics::spring::{Design, Springs};
-use rand::{Rng, SeedableRng};
-use rand_chacha::ChaCha8Rng;
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt, SeedableRng};
 use rocking::structure::{Kind, Structure};
 
 pub struct Draw(ChaCha8Rng);

@@ -2,8 +2,6 @@
 
 use std::collections::HashMap;
 
-use rayon::prelude::*;
-
 use super::{
     Bin, FragilityGroup, FragilityRow, GroupPlaces, LimitState, MEASURES, bin, exceeds, measures,
     sorted,
@@ -20,7 +18,7 @@ pub(super) fn fits(members: &[FragilityGroup], states: &[LimitState]) -> Vec<Fra
     let all: Vec<(usize, usize)> = (0..members.len())
         .flat_map(|place| (0..MEASURES.len()).map(move |measure| (place, measure)))
         .collect();
-    let of = |(place, measure): (usize, usize)| -> Vec<FragilityRow> {
+    let of = |&(place, measure): &(usize, usize)| -> Vec<FragilityRow> {
         let bins = sorted(&members[place].bins[measure]);
         let ends = (bins.first(), bins.last());
         let mean = |bin: Option<&&Bin>| bin.map_or(1.0, |bin| (bin.sum_ln / bin.n as f64).exp());
@@ -45,8 +43,7 @@ pub(super) fn fits(members: &[FragilityGroup], states: &[LimitState]) -> Vec<Fra
         };
         states.iter().enumerate().map(fitted).collect()
     };
-    let rows: Vec<Vec<FragilityRow>> = all.into_par_iter().with_max_len(1).map(of).collect();
-    rows.into_iter().flatten().collect()
+    parallel::map(&all, of).into_iter().flatten().collect()
 }
 
 /// The second pass: sums of u u^T over records, whose histories come one after the other.

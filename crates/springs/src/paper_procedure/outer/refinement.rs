@@ -4,7 +4,7 @@ use argmin::{
     core::{CostFunction, Error, Executor},
     solver::neldermead::NelderMead,
 };
-use rayon::prelude::*;
+use nalgebra::Vector2;
 
 use super::{Benchmark, Candidate, OmegaSearch, Pair};
 use dynamics::{effort::Effort, fem::Control};
@@ -57,14 +57,11 @@ impl Refinement {
                 .map(|&i| (i, effort.share(self.samples as u64)))
                 .collect(),
         };
-        let refined: Vec<Vec<Candidate>> = shares
-            .par_iter()
-            .map(|(i, share)| {
-                let (pair, x) = &plan[*i];
-                let benchmark = Benchmark { effort: share, ..*benchmark };
-                self.refine(&benchmark, pair, *x, candidates[*i])
-            })
-            .collect();
+        let refined: Vec<Vec<Candidate>> = parallel::map(&shares, |(i, share)| {
+            let (pair, x) = &plan[*i];
+            let benchmark = Benchmark { effort: share, ..*benchmark };
+            self.refine(&benchmark, pair, *x, candidates[*i])
+        });
         shares.iter().for_each(|(_, share)| effort.join(share));
         candidates.extend(refined.into_iter().flatten());
         let chosen = (0..candidates.len())
@@ -93,9 +90,9 @@ impl Refinement {
             seen: std::sync::Mutex<Vec<Candidate>>,
         }
         impl CostFunction for OuterProblem<'_> {
-            type Param = Vec<f64>;
+            type Param = Vector2<f64>;
             type Output = f64;
-            fn cost(&self, x: &Vec<f64>) -> Result<f64, Error> {
+            fn cost(&self, x: &Vector2<f64>) -> Result<f64, Error> {
                 let outside: f64 = x.iter().map(|x| (x - x.clamp(0.0, 1.0)).abs()).sum();
                 let springs = self.pair.springs([x[0], x[1]]);
                 if self.benchmark.effort.stops() {
@@ -116,9 +113,9 @@ impl Refinement {
         // an error well above the start's cannot help, but its size still steers the simplex
         let limit = 2.0 * sample.error;
         let judge = |x: [f64; 2]| benchmark.judge(&pair.springs(x), limit);
-        let (second, third) = rayon::join(|| judge(corners[1]), || judge(corners[2]));
+        let (second, third) = parallel::join(|| judge(corners[1]), || judge(corners[2]));
         let judged = [sample, second, third];
-        let simplex = corners.map(|x| x.to_vec()).to_vec();
+        let simplex = corners.map(Vector2::from).to_vec();
         let problem = OuterProblem { benchmark, pair, judged, limit, seen: Default::default() };
         let spread = LEAST_SPREAD.max(self.spread * sample.error);
         let run = NelderMead::new(simplex).with_sd_tolerance(spread).map(|solver| {
