@@ -14,9 +14,9 @@ use pyo3::{
     prelude::*,
     types::{PyCapsule, PyList},
 };
-use rayon::prelude::*;
 use rocking::{
     housner::{self, Rocking, RockingOptions},
+    motion::{peak, peak_index},
     structure::Body,
 };
 
@@ -50,20 +50,15 @@ struct Row {
 
 impl Row {
     fn new(body: &Body<f64>, dt: f64, rocking: &Rocking<f64>) -> Self {
-        let (mut peak, mut theta) = (0, 0.0);
-        for (i, x) in rocking.theta.iter().enumerate() {
-            if x.abs() > theta {
-                (peak, theta) = (i, x.abs());
-            }
-        }
+        let theta = peak(&rocking.theta).abs();
         Self {
             outcome: ended(&rocking.outcome),
             peak_ratio: Solved::ratio(body, rocking, theta),
             peak_theta: theta,
-            peak_rate: rocking.rate.iter().fold(0.0, |peak: f64, x| peak.max(x.abs())),
+            peak_rate: peak(&rocking.rate).abs(),
             // the farther it leans, the farther it is
             peak_u: body.u(theta).abs(),
-            peak_time: peak as f64 * dt,
+            peak_time: peak_index(&rocking.theta) as f64 * dt,
             uplift: rocking.uplifts.first().map_or(f64::NAN, |uplift| uplift.time),
             impacts: rocking.impacts.len() as i64,
             last_impact: rocking.impacts.last().map_or(f64::NAN, |impact| impact.time),
@@ -127,7 +122,7 @@ impl Asked<'_> {
                 .map(|(body, rocking)| Row::new(body, record.dt, rocking))
                 .collect()
         };
-        jobs.par_iter().map(solve).collect::<Vec<_>>().into_iter().flatten().collect()
+        parallel::map(&jobs, solve).into_iter().flatten().collect()
     }
 
     fn table(&self, rows: &[Row]) -> Columns {

@@ -10,7 +10,7 @@ use numpy::PyArray1;
 use pyo3::{exceptions::PyIndexError, prelude::*};
 use rocking::{
     housner::{self, Rocking, RockingOptions, RockingOutcome},
-    motion::Motion,
+    motion::{self, Motion},
     structure::Body,
 };
 
@@ -50,7 +50,7 @@ impl Solved {
     }
 
     fn peak_ratio(&self) -> f64 {
-        let peak = self.rocking.theta.iter().fold(0.0, |peak: f64, x| peak.max(x.abs()));
+        let peak = motion::peak(&self.rocking.theta).abs();
         Self::ratio(&self.body, &self.rocking, peak)
     }
 

@@ -109,6 +109,14 @@ pub fn peak(x: &[f64]) -> f64 {
     x.iter().copied().fold(0.0, |best: f64, x| if x.abs() > best.abs() { x } else { best })
 }
 
+/// Where it first stands; 0 of none.
+pub fn peak_index(x: &[f64]) -> usize {
+    let farther = |best: (usize, f64), (i, x): (usize, &f64)| {
+        if x.abs() > best.1 { (i, x.abs()) } else { best }
+    };
+    x.iter().enumerate().fold((0, 0.0), farther).0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -136,5 +144,6 @@ mod tests {
     fn peak_keeps_the_sign() {
         assert_eq!(peak(&[1.0, -3.0, 2.0]), -3.0);
         assert_eq!(peak(&[]), 0.0);
+        assert_eq!(peak_index(&[1.0, -3.0, 3.0]), 1);
     }
 }
