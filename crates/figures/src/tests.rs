@@ -8,6 +8,7 @@ mod demo;
 
 use demo::FIGURES;
 
+#[cfg(feature = "png")]
 /// Where to draw: a folder of one's own choice, to look at, or one that goes away.
 fn folder() -> (Option<tempfile::TempDir>, PathBuf) {
     match std::env::var_os("GROUNDSPRING_FIGURES") {
@@ -20,6 +21,7 @@ fn folder() -> (Option<tempfile::TempDir>, PathBuf) {
     }
 }
 
+#[cfg(feature = "png")]
 #[test]
 fn every_figure_has_its_size_and_ink_on_white() {
     let (_keep, folder) = folder();
@@ -54,6 +56,7 @@ fn every_figure_has_its_size_and_ink_on_white() {
     }
 }
 
+#[cfg(feature = "png")]
 #[test]
 fn the_same_numbers_give_the_same_bytes_on_any_thread() {
     let folder = tempfile::tempdir().unwrap();
