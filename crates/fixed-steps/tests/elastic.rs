@@ -1,8 +1,6 @@
 //! An elastic pier in fixed steps, beside OpenSees and beside the finite elements that follow
 //! events.
 
-use std::ops::ControlFlow;
-
 use dynamics::spring::{Chain, Design, Springs};
 use fixed_steps::{
     ConvergenceTest, FixedStepAnalysis, FixedStepFrame, FixedStepModel, FixedStepOutcome,
@@ -49,15 +47,9 @@ fn top(frame: &Frame, integrator: Integrator, step: f64, below: f64) -> Vec<f64>
     let model = FixedStepFrame::new(frame, &units).unwrap();
     let iteration = Iteration { constant: 0, newton: 30, test: ConvergenceTest::Increment(below) };
     let settings = StepSettings { iteration, ..StepSettings::new(integrator, step) };
-    let mut u = Vec::new();
-    let (outcome, _) = FixedStepAnalysis::new(&model, settings, 0.01, &accel)
-        .follow(|_, q| {
-            u.push(frame.displacement(1, q)[0]);
-            ControlFlow::Continue(())
-        })
-        .unwrap();
-    assert_eq!(outcome, FixedStepOutcome::Finished, "{integrator}, {step}");
-    u
+    let found = FixedStepAnalysis::new(&model, settings, 0.01, &accel).history().unwrap();
+    assert_eq!(found.outcome, FixedStepOutcome::Finished, "{integrator}, {step}");
+    found.coordinates.iter().map(|q| frame.displacement(1, q)[0]).collect()
 }
 
 /// u of the mass, m, by OpenSees 3.7.1 with our deck's elements (`.ci/fixed_steps.py`), steps of

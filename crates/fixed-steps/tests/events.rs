@@ -1,8 +1,6 @@
 //! Steps cut at events: what that leaves as it was, and what it does to a block and a pier that
 //! rock.
 
-use std::ops::ControlFlow;
-
 use dynamics::spring::{Chain, Design, Springs};
 use fixed_steps::{
     ConvergenceTest, EventStepping, FixedStepAnalysis, FixedStepBody, FixedStepFrame,
@@ -90,15 +88,10 @@ fn cut_steps_of_a_pier_come_to_the_history_of_short_ones() {
     let top = |step: f64, events: Option<EventStepping>| {
         let settings = StepSettings::new(Integrator::HHT_MOST, step);
         let settings = StepSettings { iteration, events, ..settings };
-        let mut u = Vec::new();
-        let (outcome, work) = FixedStepAnalysis::new(&model, settings, DT, &pulse(4.5))
-            .follow(|_, q| {
-                u.push(frame.displacement(1, q)[0]);
-                ControlFlow::Continue(())
-            })
-            .unwrap();
-        assert_eq!(outcome, FixedStepOutcome::Finished);
-        (u, work.events)
+        let found = FixedStepAnalysis::new(&model, settings, DT, &pulse(4.5)).history().unwrap();
+        assert_eq!(found.outcome, FixedStepOutcome::Finished);
+        let u: Vec<f64> = found.coordinates.iter().map(|q| frame.displacement(1, q)[0]).collect();
+        (u, found.work.events)
     };
     let (found, events) = top(1e-3, Some(EventStepping::USUAL));
     assert!(events > 2, "{events}");

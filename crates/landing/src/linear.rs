@@ -105,6 +105,14 @@ mod tests {
     }
 
     #[test]
+    fn columns_combined_are_the_product_bit_for_bit() {
+        let at = |i: usize, j: usize| (1.7 * i as f64 + 2.9 * j as f64).sin();
+        let a: SquareMatrix<f64, 8> = std::array::from_fn(|i| std::array::from_fn(|j| at(i, j)));
+        let y: [f64; 8] = std::array::from_fn(|i| at(i, 9));
+        assert_eq!(combined(&transposed(&a), &y), times(&a, &y));
+    }
+
+    #[test]
     fn the_derivative_by_time_is_a_times_the_exponential() {
         use num_dual::Dual64;
         let a = [[-0.3, 2.0], [-5.0, -0.1]];

@@ -76,6 +76,16 @@ mod tests {
     }
 
     #[test]
+    fn octaves_are_even_in_the_logarithm() {
+        let (mut octaves, mut unit) = (Random::new(3, 1), Random::new(3, 1));
+        for _ in 0..1000 {
+            let (x, share) = (octaves.octaves_above(9.0, 2.0), unit.unit());
+            assert!((9.0..36.0).contains(&x));
+            assert!(((x / 9.0).log2() - 2.0 * share).abs() < 1e-14, "{x} {share}");
+        }
+    }
+
+    #[test]
     fn streams_differ_and_repeat() {
         let first = |seed, stream| Random::new(seed, stream).unit();
         assert_eq!(first(1, 2), first(1, 2));

@@ -14,6 +14,13 @@ fn hz(i: i64) -> f64 {
     springs(i, 1.0).omega_n_hz
 }
 
+/// As if one release had been followed, with this error of both.
+fn measured(error: f64) -> Measured {
+    let (median, p90) = ([error; 2], [error; 2]);
+    let releases = ElasticErrors { median, p90, count: 1, touches: 2.0, peaks: None };
+    Measured { releases: Some(releases), ..Measured::default() }
+}
+
 #[test]
 fn springs_softer_than_any_rung_are_refused_and_others_bound_the_search() {
     let softest = hz(RUNGS.0);
@@ -36,24 +43,11 @@ fn springs_softer_than_any_rung_are_refused_and_others_bound_the_search() {
 /// Errors of a tenth of the give, as good as asked at 0.7 times 0.002.
 #[test]
 fn the_softest_springs_that_hold_are_taken() {
-    let errors = |give: f64| {
-        let error = [0.1 * give; 2];
-        Measured {
-            releases: Some(ElasticErrors {
-                median: error,
-                p90: error,
-                count: 1,
-                touches: 2.0,
-                peaks: None,
-            }),
-            ..Measured::default()
-        }
-    };
     let rungs = Rungs::new(0.002, None, hz).unwrap();
     let tuned = rungs.search(
         Asked::new(0.002, None),
         springs,
-        &|springs| errors(springs.give),
+        &|springs| measured(0.1 * springs.give),
         &Effort::unbounded(),
         &|_, _| (),
     );
@@ -66,19 +60,7 @@ fn the_softest_springs_that_hold_are_taken() {
 /// Those at the balance of K leave a landing too fast, whatever their stiffness.
 #[test]
 fn springs_with_less_rebound_are_tried_where_the_balanced_ones_do_not_hold() {
-    let errors = |springs: &CornerSprings| {
-        let error = [0.1 * springs.give + 0.02 * springs.k; 2];
-        Measured {
-            releases: Some(ElasticErrors {
-                median: error,
-                p90: error,
-                count: 1,
-                touches: 2.0,
-                peaks: None,
-            }),
-            ..Measured::default()
-        }
-    };
+    let errors = |springs: &CornerSprings| measured(0.1 * springs.give + 0.02 * springs.k);
     let rungs = Rungs::new(0.002, None, hz).unwrap();
     let tuned =
         rungs.search(Asked::new(0.002, None), springs, &errors, &Effort::unbounded(), &|_, _| ());
