@@ -44,6 +44,7 @@ use parameters::{
     predictability::{simulate, width_sensitivity},
 };
 use rocking::motion::Motion;
+pub use sap2000::sap_function;
 pub use step_count::deck_steps;
 pub use stepping::{SteppedDeck, Stepping, even_deck, samples_to, stepped_deck, stepped_history};
 use strong_motion::Record;

@@ -18,6 +18,7 @@
 
 mod cases;
 mod elastic;
+mod function;
 mod links;
 mod parts;
 mod sheet;
@@ -26,6 +27,7 @@ use std::fmt::{Display, Write};
 
 use super::model::digits;
 use cases::{cases, loads, record};
+pub use function::sap_function;
 use links::links;
 pub(super) use parts::SapModel;
 use parts::{Bar, FootJoints, SapSection};

@@ -99,10 +99,7 @@ impl ProgramReport {
             ProgramSetting::new(
                 "rotational inertia at the mass",
                 value.clone(),
-                format!(
-                    "inertia {value} at the mass, not {} (these steps need it)",
-                    significant(given, 4)
-                ),
+                format!("inertia {value}, not {} (needed here)", significant(given, 4)),
             )
         });
         let late = late(parameters.peaks, &parameters.findings);
@@ -219,8 +216,8 @@ impl ProgramReport {
     }
 }
 
-/// The ground motion's factor, for a screen.
-const FACTOR: &str = "motion x 1 (m/s2)";
+/// The ground motion, for a screen: direction, factor, file.
+const MOTION: &str = "accel U1 x 1: ground_motion.txt";
 
 /// What a program is to be set to, in the order of SAP2000's dialog.
 fn settings<U>(
@@ -256,7 +253,7 @@ fn settings<U>(
         all.push(set("geometric nonlinearity", geometry.into(), geometry.into()));
         let damping = set("proportional damping of the case", "0".into(), "case damping 0".into());
         let factor = "1, for the file is in m/s2 and scaled";
-        let factor = set("scale factor of the ground motion", factor.into(), FACTOR.into());
+        let factor = set("scale factor of the ground motion", factor.into(), MOTION.into());
         all.extend([damping, factor].map(|s| ProgramSetting { spare: true, ..s }));
         all.push(set("initial conditions", "continue from GRAVITY".into(), "from GRAVITY".into()));
     }

@@ -1,6 +1,6 @@
 //! The decks of a run.
 
-use decks::{DeckFormat, ExportError, SteppedDeck};
+use decks::{DeckFormat, ExportError, SteppedDeck, sap_function};
 use parameters::program::ProgramRow;
 use report::screen::{ETABS_SHEET, EVEN_DECK, SHEET};
 use strong_motion::Record;
@@ -61,10 +61,8 @@ pub(crate) fn sheet<U>(
         gathered(&[(name, DeckFormat::Sap2000Sheet)], |_, format| Ok((deck(format)?.text, None)))?;
     let mut files = texts.files;
     if !files.is_empty() {
-        let motion = |name: &str, all: &[f64]| {
-            let lines: String = all.iter().map(|a| format!("{a:.9e}\n")).collect();
-            (format!("decks/{name}"), lines)
-        };
+        let motion =
+            |name: &str, all: &[f64]| (format!("decks/{name}"), sap_function(record.dt, all));
         files.push(motion("ground_motion.txt", &record.accel));
         files.extend(record.vertical.as_ref().map(|_| motion("ground_motion_up.txt", record.up())));
     }

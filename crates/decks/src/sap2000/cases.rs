@@ -1,6 +1,6 @@
 //! The weight, the ground motion, and the load cases that apply them.
 
-use super::{KILO, SapModel, SapTable};
+use super::{KILO, SapModel, SapTable, function::pairs};
 use crate::{model::digits, stepping::EvenSteps};
 use fixed_steps::Integrator;
 use rocking::scalar::GRAVITY;
@@ -186,8 +186,7 @@ pub(super) fn record(parts: &SapModel) -> Vec<SapTable> {
     let record = parts.record;
     let up: &[f64] = if record.vertical.is_some() { record.up() } else { &[] };
     for (name, motion) in [(ACROSS, &record.accel[..]), (UPWARDS, up)] {
-        for (i, &a) in motion.iter().enumerate() {
-            let time = i as f64 * record.dt;
+        for [time, a] in pairs(record.dt, motion) {
             table.add(&[("Name", &name), ("Time", &digits(time)), ("Value", &digits(a))]);
         }
     }

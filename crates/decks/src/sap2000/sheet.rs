@@ -235,11 +235,20 @@ fn history(parts: &SapModel) -> String {
 
 /// The ground's acceleration, and the files that have it.
 fn motions(parts: &SapModel) -> String {
-    let (every, values) = (number(parts.record.dt), parts.record.len());
+    let first = parts.record.accel.first().copied().unwrap_or_default();
+    let begins = match first == 0.0 {
+        true => String::new(),
+        false => format!(
+            "; it begins at 0, for the\n   {:COLUMN$}program takes it relative to its first value, \
+             the record's {} m/s2",
+            "",
+            number(first)
+        ),
+    };
     let across = format!(
-        "acceleration U1, scale 1: function from file ground_motion.txt beside this one, in m/s2, \
-         scaled\n   {:COLUMN$}already, {values} values, one a line, from t = 0, every {every} s, \
-         no header line",
+        "acceleration U1, scale 1: function from file ground_motion.txt beside this one, values \
+         are Time\n   {:COLUMN$}and Function Values, a pair a line, in s and m/s2, scaled already, \
+         no header line{begins}",
         ""
     );
     match parts.record.vertical {
