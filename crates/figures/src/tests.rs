@@ -1,5 +1,6 @@
 //! Every figure from closed forms: its size, its ink, its bytes, and what it refuses.
 
+#[cfg(feature = "png")]
 use std::path::PathBuf;
 
 use super::*;
@@ -8,8 +9,8 @@ mod demo;
 
 use demo::FIGURES;
 
-#[cfg(feature = "png")]
 /// Where to draw: a folder of one's own choice, to look at, or one that goes away.
+#[cfg(feature = "png")]
 fn folder() -> (Option<tempfile::TempDir>, PathBuf) {
     match std::env::var_os("GROUNDSPRING_FIGURES") {
         Some(folder) => (None, folder.into()),

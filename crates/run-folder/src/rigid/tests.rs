@@ -101,6 +101,12 @@ fn a_program_that_is_asked_for_has_its_sheet() {
         assert!(find(other).is_none());
         assert_eq!(find("model_sap2000.s2k").is_some(), name == "SAP2000");
         let (_, sheet_text) = find(sheet).unwrap();
+        // El Centro begins at -0.063 m/s2, its function at 0
+        let (_, motion) = find("ground_motion.txt").unwrap();
+        let begin: Vec<&str> = motion.lines().take(2).collect();
+        assert!(begin[0] == "0.000000000e0 0.000000000e0", "{begin:?}");
+        assert!(begin[1].starts_with("1.000000000e-5 -6.28"), "{begin:?}");
+        assert!(sheet_text.contains("it begins at 0, for the"), "{sheet_text}");
         let said = run.said(filed(&run, Path::new("out")));
         let written = Written { folder: "out", report: true, decks: true, left_out: &[] };
         let text = screen(&said, &written);
@@ -121,7 +127,7 @@ fn a_program_that_is_asked_for_has_its_sheet() {
             "constant-stiffness 0, Newton 40",
             "no event stepping; no line search",
             "P-Delta plus large displacements",
-            "case damping 0; motion x 1 (m/s2)",
+            "case damping 0; accel U1 x 1: ground_motion.txt",
             "from GRAVITY",
         ] {
             assert!(of_program.contains(what), "{what}: {text}");
