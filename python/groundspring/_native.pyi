@@ -502,7 +502,7 @@ class Tuned:
     def lines(self) -> list[str]:
         """What is to be said of the run."""
     def save(self, folder: _Path, figures: bool = True) -> list[str]:
-        """Write springs, histories, figures, decks. Decks that a program cannot hold are left
+        """Write springs, histories, figures (SVG), decks. Decks that a program cannot hold are left
         out: each is named, with the reason."""
     def to_pandas(self) -> pandas.DataFrame:
         """Those of its histories."""
