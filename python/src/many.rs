@@ -50,7 +50,8 @@ struct Row {
 
 impl Row {
     fn new(body: &Body<f64>, dt: f64, rocking: &Rocking<f64>) -> Self {
-        let theta = peak(&rocking.theta).abs();
+        let peak_at = peak_index(&rocking.theta);
+        let theta = rocking.theta.get(peak_at).map_or(0.0, |theta| theta.abs());
         Self {
             outcome: ended(&rocking.outcome),
             peak_ratio: Solved::ratio(body, rocking, theta),
@@ -58,7 +59,7 @@ impl Row {
             peak_rate: peak(&rocking.rate).abs(),
             // the farther it leans, the farther it is
             peak_u: body.u(theta).abs(),
-            peak_time: peak_index(&rocking.theta) as f64 * dt,
+            peak_time: peak_at as f64 * dt,
             uplift: rocking.uplifts.first().map_or(f64::NAN, |uplift| uplift.time),
             impacts: rocking.impacts.len() as i64,
             last_impact: rocking.impacts.last().map_or(f64::NAN, |impact| impact.time),

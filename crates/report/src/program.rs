@@ -99,7 +99,7 @@ impl ProgramReport {
             ProgramSetting::new(
                 "rotational inertia at the mass",
                 value.clone(),
-                format!("inertia {value}, not {} (needed here)", significant(given, 4)),
+                format!("inertia {value}, not {}", significant(given, 4)),
             )
         });
         let late = late(parameters.peaks, &parameters.findings);
@@ -216,8 +216,8 @@ impl ProgramReport {
     }
 }
 
-/// The ground motion, for a screen: direction, factor, file.
-const MOTION: &str = "accel U1 x 1: ground_motion.txt";
+/// The ground motion, for a screen: direction, factor, file, its columns.
+const MOTION: &str = "accel U1 x 1: ground_motion.txt (time, value)";
 
 /// What a program is to be set to, in the order of SAP2000's dialog.
 fn settings<U>(

@@ -76,12 +76,7 @@ impl Pictures<'_> {
         let drawn = parallel::map(&all, |(name, caption, draw)| {
             Ok(draw(self)?.map(|sheet| Figure { name, caption, sheet }))
         });
-        Ok(drawn
-            .into_iter()
-            .collect::<Result<Vec<_>, FigureError>>()?
-            .into_iter()
-            .flatten()
-            .collect())
+        drawn.into_iter().filter_map(Result::transpose).collect()
     }
 
     /// A title, and below it the structure, the record, its scale and Omega_n.

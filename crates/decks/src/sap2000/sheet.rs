@@ -239,7 +239,7 @@ fn motions(parts: &SapModel) -> String {
     let begins = match first == 0.0 {
         true => String::new(),
         false => format!(
-            "; it begins at 0, for the\n   {:COLUMN$}program takes it relative to its first value, \
+            ";\n   {:COLUMN$}it begins at 0, for the program takes it relative to its first value, \
              the record's {} m/s2",
             "",
             number(first)
