@@ -9,7 +9,9 @@ import pathlib, re, sys, tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 ours = {}
-for manifest in sorted([ROOT / "Cargo.toml", ROOT / "python/Cargo.toml", *ROOT.glob("crates/*/Cargo.toml")]):
+for manifest in sorted(
+    [*(ROOT / path / "Cargo.toml" for path in ("", "python", "benches")), *ROOT.glob("crates/*/Cargo.toml")]
+):
     ours[tomllib.loads(manifest.read_text())["package"]["name"]] = manifest
 
 
@@ -23,8 +25,8 @@ for name, manifest in ours.items():
     toml = tomllib.loads(manifest.read_text())
     uses[name] = [d for d in toml["dependencies"] if d in ours]
     for table, parts in [
-        ("dependencies", ["src"]),
-        ("dev-dependencies", ["src", "tests", "benches", "examples", "../fuzz"]),
+        ("dependencies", ["."] if name == "benches" else ["src"]),
+        ("dev-dependencies", ["src", "tests", "examples", "../fuzz"]),
     ]:
         text = text_of(manifest.parent, parts)
         for crate in toml.get(table, {}):

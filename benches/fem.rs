@@ -7,14 +7,9 @@ use std::{
     time::{Duration, Instant},
 };
 
+use comparison::elements::BenchCase;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use dynamics::fem::{Analysis, Control, Observer, View, histories};
-
-#[path = "compare/main.rs"]
-#[cfg_attr(not(test), allow(dead_code))] // its benches alone
-mod compare;
-
-use compare::elements::BenchCase;
 
 fn fem(c: &mut Criterion) {
     let mut group = c.benchmark_group("finite elements");

@@ -144,7 +144,7 @@ fn over_steps() -> Result<(), BenchError> {
             series,
         })
         .collect();
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("figures/fixed_steps.png");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../figures/fixed_steps.png");
     precision::draw(&figures)?.save(&path)?;
     println!("{}", path.display());
     Ok(())

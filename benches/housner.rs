@@ -2,17 +2,14 @@
 
 use std::{hint::black_box, time::Duration};
 
+use comparison::rigid::RockingProblem;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use rocking::housner::{RockingOptions, solve, solve_lanes};
 
-#[path = "compare/main.rs"]
-#[cfg_attr(not(test), allow(dead_code))] // its history and its peer alone
-mod compare;
-
-use compare::rigid::Problem;
+mod diffsol;
 
 fn housner(c: &mut Criterion) {
-    let problem = Problem::el_centro();
+    let problem = RockingProblem::el_centro();
     let (body, dt, accel) = (&problem.body, problem.record.dt, &problem.record.accel);
     let options = RockingOptions::default();
     let mut group = c.benchmark_group("housner");
@@ -27,8 +24,8 @@ fn housner(c: &mut Criterion) {
 }
 
 fn peers(c: &mut Criterion) {
-    let problem = Problem::el_centro();
-    let case = problem.diffsol();
+    let problem = RockingProblem::el_centro();
+    let case = diffsol::Case::of(&problem);
     let error = problem.error(&case.theta(1e-9).expect("diffsol follows the record"));
     assert!(error < 1e-10, "diffsol's error is {error:e} m");
     let mut group = c.benchmark_group("housner");

@@ -39,6 +39,17 @@ fn encode(pixels: &Pixmap) -> Result<Vec<u8>, png::EncodingError> {
     Ok(file)
 }
 
+/// A picture that was written: its width and height, and its pixels row by row.
+#[cfg(test)]
+pub(crate) fn read(path: &std::path::Path) -> ((u32, u32), Vec<[u8; 3]>) {
+    let file = std::io::BufReader::new(std::fs::File::open(path).unwrap());
+    let mut reader = png::Decoder::new(file).read_info().unwrap();
+    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+    let frame = reader.next_frame(&mut bytes).unwrap();
+    assert_eq!(frame.color_type, png::ColorType::Rgb);
+    ((frame.width, frame.height), bytes.as_chunks::<3>().0.to_vec())
+}
+
 /// All shapes on white, of this width and height (pixel); none of a size that cannot be.
 pub(crate) fn drawn((width, height): (u32, u32), shapes: &[Shape]) -> Option<Pixmap> {
     let mut pixels = Pixmap::new(width, height)?;

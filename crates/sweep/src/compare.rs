@@ -9,8 +9,8 @@ use super::{
     parts::SweepParts,
     plan::Plan,
     reduce::{self, Histogram},
-    table::{Column, SweepTable},
 };
+use sweep_table::{Column, SweepTable};
 
 /// One structure, or all of them.
 #[derive(Clone, Debug, Default)]

@@ -16,10 +16,10 @@ use super::{
     parts::SweepParts,
     plan::Plan,
     reduce::{self, MODELS, SeenHistory},
-    table::{Column, SweepTable},
 };
 use fits::{bounds, fits};
 use row::ConfidenceBounds;
+use sweep_table::{Column, SweepTable};
 
 /// What is asked whether it is exceeded.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,8 +8,8 @@ use super::{
     parts::SweepParts,
     plan::Plan,
     reduce::{self, Histogram, MODELS},
-    table::{Column, SweepTable},
 };
+use sweep_table::{Column, SweepTable};
 
 /// One structure and restitution at one level, by one model.
 #[derive(Clone, Debug)]

@@ -16,9 +16,9 @@
 use super::{
     ida::{Ida, IdaPoint},
     plan::Plan,
-    table::{Column, SweepTable},
 };
 use rocking::structure::{Body, Kind, Structure};
+use sweep_table::{Column, SweepTable};
 
 /// How far a structure moves at a lean (m).
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -43,7 +43,6 @@ pub mod seal;
 pub mod spec;
 pub mod springs;
 pub mod summary;
-pub mod table;
 pub mod values;
 
 pub use error::SweepError;

@@ -24,13 +24,13 @@ use super::{
     plan::{Cell, Plan},
     row::CellOutcome,
     springs::SpringsTable,
-    table::{Column, SweepTable},
 };
 use rocking::{
     housner::{self, Rocking},
     structure::Body,
 };
 use strong_motion::{Record, Source};
+use sweep_table::{Column, SweepTable};
 
 /// An interval of PGA/(g tan alpha) that overturns after one number of impacts; an end is missing
 /// where the scan ends first.

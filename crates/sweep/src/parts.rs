@@ -11,9 +11,10 @@ use bytes::Bytes;
 
 use super::{
     SweepError, history, manifest, overturning, plan::Plan, row, seal, spec::SweepKind,
-    springs::SpringsTable, table::SweepTable,
+    springs::SpringsTable,
 };
 use files::{input, message::one_line};
+use sweep_table::SweepTable;
 
 /// Share I of N of a sweep, for machines that share the work: the parts I, I + N, I + 2 N ... from
 /// 1.
@@ -167,9 +168,8 @@ impl<'a> SweepParts<'a> {
             row::table(self.plan, &history::rows(self.plan, springs, cells, done)?)
         };
         let path = self.path(part);
-        let mut bytes = Vec::new();
         let metadata = seal::metadata(self.hash, part, self.plan.parts(), table.rows());
-        table.write_parquet(&mut bytes, &metadata).map_err(|e| SweepError::File {
+        let mut bytes = table.parquet(&metadata).map_err(|e| SweepError::File {
             path: path.display().to_string(),
             source: std::io::Error::other(e.to_string()),
         })?;

@@ -4,8 +4,8 @@ use super::{
     SweepError,
     parts::SweepParts,
     plan::{Cell, Plan},
-    table::{Column, SweepTable},
 };
+use sweep_table::{Column, SweepTable};
 
 /// The models of a sweep's columns.
 pub const MODELS: [&str; 2] = ["housner", "fem"];

@@ -2,10 +2,8 @@
 
 use std::sync::Arc;
 
-use super::{
-    plan::Plan,
-    table::{Column, SweepTable},
-};
+use super::plan::Plan;
+use sweep_table::{Column, SweepTable};
 
 /// How a history ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,10 +7,10 @@ use super::{
     levels,
     plan::{Measure, Plan},
     reduce::MODELS,
-    table::SweepTable,
 };
 use crate::lognormal::LognormalFit;
 use rocking::{scalar::GRAVITY, structure::Kind};
+use sweep_table::SweepTable;
 
 /// A model in words.
 fn by(model: &str) -> &'static str {

@@ -14,8 +14,8 @@ use sweep::{
     motion::SweepMotion,
     plan::{Measure, Plan},
     reduce::{MODELS, models},
-    table::SweepTable,
 };
+use sweep_table::SweepTable;
 
 /// Panels beyond which a figure is no figure.
 const PANELS: usize = 6;

@@ -26,8 +26,8 @@ use sweep::{
     row,
     spec::SweepKind,
     summary,
-    table::SweepTable,
 };
+use sweep_table::SweepTable;
 
 /// Options of `tune sweep gather`.
 #[derive(Debug, Args)]

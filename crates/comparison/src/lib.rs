@@ -1,93 +1,37 @@
-//! Run time against error: our two models and other tools on the same history, in one run.
+//! Run time against error: our two models and other tools on the same history, in one run. What
+//! `cargo bench --bench compare` measures and prints.
 //!
-//! ```sh
-//! cargo bench --bench compare -- --quick                       # a few seconds, our own code alone
-//! cargo bench --bench compare -- --page docs/benchmarks.md     # everything, some minutes; writes the page anew
-//! ```
-//!
-//! | file | what |
+//! | module | what |
 //! |---|---|
 //! | `rigid` | Housner's equation against a float128 history, alone and in lock-step |
-//! | `diffsol` | the same by diffsol, stopped at every sample |
 //! | `elements` | the finite element history: tolerance, stiffness, length |
 //! | `peers` | SciPy, Octave, OpenSees, each in a process of its own |
 //! | `program` | inner fit, `tune run`, `tune validate` |
 //! | `skips` | what a case does not need, with and without |
+//! | `measurements`, `table` | all of it as data; tables and times in words |
 //! | `report`, `targets`, `page` | tables; targets and whether they are met; docs/benchmarks.md |
 //!
 //! Times are the least of several rounds in which the contenders take turns: other work on the
 //! machine only ever adds. What counts is their ratio.
 
-// without a harness tests are compiled away; tests/compare.rs runs them
-#![cfg_attr(test, allow(unused_imports, dead_code))]
-
-mod diffsol;
 pub mod elements;
-mod page;
+mod measurements;
+pub mod page;
 mod peers;
 mod program;
 mod report;
 pub mod rigid;
 mod skips;
+mod table;
 mod targets;
 
-use std::{
-    error::Error,
-    path::{Path, PathBuf},
-    time::Instant,
-};
+use std::{error::Error, path::Path, time::Instant};
 
-use clap::Parser;
 use figures::precision::{self, PrecisionFigure};
 use frequency_response::inner::FitError;
 
-use self::peers::Stepping;
-use report::Measured;
-
-#[derive(Debug, Parser)]
-#[command(name = "compare", about = "Run time against error, beside other tools")]
-struct Options {
-    /// A few seconds: few rounds, no other program
-    #[arg(long)]
-    quick: bool,
-    /// Python with SciPy and openseespy
-    #[arg(long, value_name = "PATH", default_value = "python3")]
-    python: PathBuf,
-    /// Folder for the table and the figure [default: none]
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
-    /// Write the documentation's page anew; with --quick what our own code and diffsol do, alone
-    #[arg(long, value_name = "FILE")]
-    page: Option<PathBuf>,
-    /// Whether the documentation's page has the tables that this program prints
-    #[arg(long, value_name = "FILE")]
-    check: Option<PathBuf>,
-    /// Given by cargo bench
-    #[arg(long, hide = true)]
-    bench: bool,
-}
-
-pub fn main() -> Result<(), Box<dyn Error>> {
-    let o = Options::parse();
-    let effort = if o.quick { Effort::quick() } else { Effort::full() };
-    let program = Path::new(env!("CARGO_BIN_EXE_tune"));
-    let measured = measure(&effort, &o.python, program, &|what| eprintln!("{what}"))?;
-    let text = measured.text();
-    print!("{text}");
-    if let Some(out) = &o.out {
-        std::fs::create_dir_all(out)?;
-        std::fs::write(out.join("bench.md"), &text)?;
-        draw(&measured, &out.join("work_precision.png"))?;
-    }
-    if let Some(path) = &o.page {
-        std::fs::write(path, page::page(&text))?;
-    }
-    if let Some(path) = &o.check {
-        page::check(&text, &std::fs::read_to_string(path)?)?;
-        println!("\n{}: all tables are there", path.display());
-    }
-    Ok(())
-}
+use self::{peers::OpenSeesStepping, rigid::Solver};
+pub use measurements::Measurements;
 
 /// One run of a tool: a setting, what it cost and how far off it was.
 #[derive(Clone, Debug, PartialEq)]
@@ -104,12 +48,12 @@ pub struct Point {
 
 /// A tool over a ladder of settings.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Series {
+pub struct TimedSeries {
     pub tool: String,
     pub points: Vec<Point>,
 }
 
-impl Series {
+impl TimedSeries {
     /// The cheapest point with an error of at most `error`.
     pub fn cheapest(&self, error: f64) -> Option<&Point> {
         self.points
@@ -120,11 +64,11 @@ impl Series {
 }
 
 /// Another tool's part: what it did, or in one line why it is left out.
-pub type Peer = Result<Series, String>;
+pub type Peer = Result<TimedSeries, String>;
 
 /// How much is measured.
 #[derive(Clone, Debug)]
-pub struct Effort {
+pub struct ComparisonEffort {
     /// Rounds for what takes less than a millisecond, and for what takes longer.
     pub rounds: [usize; 2],
     /// Whether other programs, and our own as a whole, are run.
@@ -135,7 +79,7 @@ pub struct Effort {
     pub records: &'static [usize],
 }
 
-impl Effort {
+impl ComparisonEffort {
     /// A few seconds, nothing but our own code.
     pub fn quick() -> Self {
         Self { rounds: [20, 3], programs: false, opensees: &[], records: &[] }
@@ -152,28 +96,30 @@ impl Effort {
     }
 }
 
-/// Measure everything. `tell` hears what comes next.
+/// Measure everything. `solver` stands beside ours on Housner's equation; `program` is `tune`;
+/// `tell` hears what comes next.
 ///
 /// # Errors
 /// An inner fit fails. Tools that are not there, or fail, are told in the result.
 pub fn measure(
-    effort: &Effort,
+    effort: &ComparisonEffort,
+    solver: &Solver,
     python: &Path,
     program: &Path,
     tell: &dyn Fn(&str),
-) -> Result<Measured, FitError> {
+) -> Result<Measurements, FitError> {
     let [many, few] = effort.rounds;
-    let mut m = Measured::default();
-    let problem = rigid::Problem::el_centro();
+    let mut m = Measurements::default();
+    let problem = rigid::RockingProblem::el_centro();
     tell("Housner's equation");
-    m.rigid = rigid::series(&problem, many);
+    m.rigid = rigid::series(&problem, solver, many);
     m.lanes = Some(rigid::lanes(&problem, 64, few));
     if effort.programs {
         tell("Housner's equation: SciPy, Octave");
         for peer in peers::scipy(&problem, python, &[1e-3, 1e-6, 1e-9], 3) {
-            Measured::add(&mut m.left_out, &mut m.rigid, peer);
+            Measurements::add(&mut m.left_out, &mut m.rigid, peer);
         }
-        Measured::add(&mut m.left_out, &mut m.rigid, peers::octave(&problem, &[1e-3, 1e-6], 1));
+        Measurements::add(&mut m.left_out, &mut m.rigid, peers::octave(&problem, &[1e-3, 1e-6], 1));
     }
     tell("finite elements");
     let benches = [elements::BenchCase::arr(), elements::BenchCase::damped()]
@@ -188,9 +134,9 @@ pub fn measure(
     if effort.programs {
         for (tight, bench) in &benches {
             tell(&format!("OpenSees, {}", bench.name));
-            for stepping in [Stepping::Even, Stepping::Watched] {
+            for stepping in [OpenSeesStepping::Even, OpenSeesStepping::Watched] {
                 let peer = peers::opensees(bench, tight, python, stepping, effort.opensees);
-                Measured::add(&mut m.left_out, &mut m.elements, peer);
+                Measurements::add(&mut m.left_out, &mut m.elements, peer);
             }
         }
         tell("tune run, tune validate");
@@ -232,22 +178,25 @@ pub fn least<T>(rounds: usize, mut contender: impl FnMut() -> T) -> (f64, T) {
 }
 
 /// A tool's name and its (error, time [ms]).
-type Drawn = (String, Vec<(f64, f64)>);
+type DrawnSeries = (String, Vec<(f64, f64)>);
 
-fn series(drawn: &[Drawn]) -> Vec<precision::ToolSeries<'_>> {
+fn series(drawn: &[DrawnSeries]) -> Vec<precision::ToolSeries<'_>> {
     drawn.iter().map(|(label, points)| precision::ToolSeries { label, points }).collect()
 }
 
 /// `work_precision.png`: one sheet a model.
-fn draw(measured: &Measured, path: &Path) -> Result<(), Box<dyn Error>> {
+///
+/// # Errors
+/// The picture cannot be drawn or written.
+pub fn draw(measured: &Measurements, path: &Path) -> Result<(), Box<dyn Error>> {
     // what has no finite error, as a history that went wrong, is in the table only; no error at all
     // cannot be drawn
-    let points = |series: &Series| -> Vec<(f64, f64)> {
+    let points = |series: &TimedSeries| -> Vec<(f64, f64)> {
         let drawn = series.points.iter().filter(|p| p.error > 0.0 && p.error.is_finite());
         drawn.map(|p| (p.error, p.seconds * 1e3)).collect()
     };
-    let all = |list: &[Series]| -> Vec<Drawn> {
-        let named = |s: &Series, drawn: usize| match s.points.len() - drawn {
+    let all = |list: &[TimedSeries]| -> Vec<DrawnSeries> {
+        let named = |s: &TimedSeries, drawn: usize| match s.points.len() - drawn {
             0 => s.tool.clone(),
             lost => format!("{} ({lost} in the table only)", s.tool),
         };
@@ -278,14 +227,14 @@ mod tests {
     use super::*;
 
     /// A tool and what it measured: seconds, error.
-    pub fn series(tool: &str, points: &[(f64, f64)]) -> Series {
+    pub fn series(tool: &str, points: &[(f64, f64)]) -> TimedSeries {
         let point = |&(seconds, error): &(f64, f64)| Point {
             setting: "s".into(),
             seconds,
             error,
             note: String::new(),
         };
-        Series { tool: tool.into(), points: points.iter().map(point).collect() }
+        TimedSeries { tool: tool.into(), points: points.iter().map(point).collect() }
     }
 
     #[test]

@@ -7,10 +7,12 @@
 
 use std::cell::Cell;
 
+use comparison::rigid::RockingProblem;
 use diffsol::{
     DiffsolError, NalgebraMat, NalgebraVec, OdeBuilder, OdeEquations, OdeSolverMethod,
     OdeSolverStopReason,
 };
+use rocking::scalar::GRAVITY;
 
 /// A body at rest that is lifted once and then rocks on, and its record.
 #[derive(Clone, Copy, Debug)]
@@ -49,7 +51,19 @@ struct Mark {
     rate: f64,
 }
 
-impl Case<'_> {
+impl<'a> Case<'a> {
+    /// A history of the comparison.
+    pub fn of(problem: &'a RockingProblem) -> Self {
+        Self {
+            p2: problem.body.p_squared(),
+            alpha: problem.body.alpha(),
+            e: problem.body.restitution(),
+            g: GRAVITY,
+            dt: problem.record.dt,
+            accel: &problem.record.accel,
+        }
+    }
+
     /// theta at every sample [rad] with relative tolerance `rtol`.
     ///
     /// # Errors
@@ -100,9 +114,9 @@ impl Case<'_> {
     }
 
     /// To the interval's end, through its impacts.
-    fn cross<'a, E: OdeEquations<T = f64, V = NalgebraVec<f64>> + 'a>(
+    fn cross<'s, E: OdeEquations<T = f64, V = NalgebraVec<f64>> + 's>(
         &self,
-        solver: &mut impl OdeSolverMethod<'a, E>,
+        solver: &mut impl OdeSolverMethod<'s, E>,
         here: &Cell<Here>,
         end: f64,
     ) -> Result<(), DiffsolError> {
@@ -139,9 +153,9 @@ impl Case<'_> {
     }
 
     /// Put the solver somewhere, its next step h.
-    fn place<'a, E: OdeEquations<T = f64, V = NalgebraVec<f64>> + 'a>(
+    fn place<'s, E: OdeEquations<T = f64, V = NalgebraVec<f64>> + 's>(
         &self,
-        solver: &mut impl OdeSolverMethod<'a, E>,
+        solver: &mut impl OdeSolverMethod<'s, E>,
         here: &Cell<Here>,
         at: Mark,
         h: f64,

@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-use super::{Point, Series, alternate};
+use crate::{Point, TimedSeries, alternate};
 use rocking::{
     housner::{RockingOptions, solve, solve_lanes},
     structure::{Body, Structure},
@@ -14,14 +14,14 @@ pub const SECONDS: f64 = 20.0;
 
 /// The history that every tool follows, and its reference.
 #[derive(Clone, Debug)]
-pub struct Problem {
+pub struct RockingProblem {
     pub body: Body<f64>,
     pub record: Record,
     /// Sample and theta [rad].
     reference: Vec<(usize, f64)>,
 }
 
-impl Problem {
+impl RockingProblem {
     /// The paper's A-frame on the first 20 s of El Centro.
     pub fn el_centro() -> Self {
         let reference = include_str!("el_centro_float128.csv")
@@ -51,30 +51,25 @@ impl Problem {
             .fold(0.0, |worst, e| if worst.is_nan() || e <= worst { worst } else { e })
     }
 
-    /// The same history for diffsol.
-    pub fn diffsol(&self) -> super::diffsol::Case<'_> {
-        super::diffsol::Case {
-            p2: self.body.p_squared(),
-            alpha: self.body.alpha(),
-            e: self.body.restitution(),
-            g: rocking::scalar::GRAVITY,
-            dt: self.record.dt,
-            accel: &self.record.accel,
-        }
-    }
-
     fn ours(&self) -> Vec<f64> {
         solve(&self.body, self.record.dt, &self.record.accel, &RockingOptions::default()).theta
     }
 }
 
-/// Tolerances of diffsol's ladder.
-const LADDER: [f64; 2] = [1e-4, 1e-10];
+/// Another solver of Housner's equation.
+pub struct Solver<'a> {
+    /// What the tables call it.
+    pub tool: &'a str,
+    /// Tolerances.
+    pub ladder: [f64; 2],
+    /// theta at every sample [rad] with a relative tolerance; none if it gives up.
+    pub theta: &'a dyn Fn(&RockingProblem, f64) -> Option<Vec<f64>>,
+}
 
-/// Our solver, and beside it diffsol.
-pub fn series(problem: &Problem, rounds: usize) -> Vec<Series> {
+/// Our solver, and beside it another.
+pub fn series(problem: &RockingProblem, other: &Solver, rounds: usize) -> Vec<TimedSeries> {
     let mut ours = || drop(black_box(problem.ours()));
-    let own = |seconds| Series {
+    let own = |seconds| TimedSeries {
         tool: "groundspring".into(),
         points: vec![Point {
             setting: "one Taylor step a sample".into(),
@@ -83,28 +78,27 @@ pub fn series(problem: &Problem, rounds: usize) -> Vec<Series> {
             note: String::new(),
         }],
     };
-    let case = problem.diffsol();
-    let case = &case;
-    let mut peers = LADDER.map(|rtol| move || drop(black_box(case.theta(rtol))));
+    let mut peers = other.ladder.map(|rtol| move || drop(black_box((other.theta)(problem, rtol))));
     let [a, b] = &mut peers;
     let times = alternate(&mut [&mut ours, a, b], rounds);
-    let points = LADDER
+    let points = other
+        .ladder
         .iter()
         .zip(&times[1..])
         .map(|(&rtol, &seconds)| Point {
             setting: format!("rtol {rtol:.0e}"),
             seconds,
-            error: case.theta(rtol).map_or(f64::INFINITY, |theta| problem.error(&theta)),
+            error: (other.theta)(problem, rtol)
+                .map_or(f64::INFINITY, |theta| problem.error(&theta)),
             note: String::new(),
         })
         .collect();
-    let tool = "diffsol Tsit45, stopped at every sample".into();
-    vec![own(times[0]), Series { tool, points }]
+    vec![own(times[0]), TimedSeries { tool: other.tool.into(), points }]
 }
 
 /// Many structures on one record: time of each, one by one and in lock-step.
 #[derive(Clone, Copy, Debug)]
-pub struct Lanes {
+pub struct LaneTimes {
     pub structures: usize,
     /// [s]
     pub single: f64,
@@ -113,7 +107,7 @@ pub struct Lanes {
 }
 
 /// Structures of nearly the paper's size: width and height up to a fifth more or less.
-pub fn lanes(problem: &Problem, structures: usize, rounds: usize) -> Lanes {
+pub fn lanes(problem: &RockingProblem, structures: usize, rounds: usize) -> LaneTimes {
     let Record { dt, accel, .. } = &problem.record;
     let share = |i: usize, step: f64| 0.8 + 0.4 * (i as f64 * step).fract();
     let bodies: Vec<Body<f64>> = (0..structures)
@@ -134,7 +128,11 @@ pub fn lanes(problem: &Problem, structures: usize, rounds: usize) -> Lanes {
     // from within the pool, as a program at work calls it; a call from outside wakes two threads at
     // once, which Linux often puts on the same core for some milliseconds
     let times = rayon::scope(|_| alternate(&mut [&mut together, &mut each], rounds));
-    Lanes { structures, lanes: times[0] / structures as f64, single: times[1] / structures as f64 }
+    LaneTimes {
+        structures,
+        lanes: times[0] / structures as f64,
+        single: times[1] / structures as f64,
+    }
 }
 
 #[cfg(test)]
@@ -143,7 +141,7 @@ mod tests {
 
     #[test]
     fn the_embedded_reference_has_the_peaks_of_the_float128_program() {
-        let problem = Problem::el_centro();
+        let problem = RockingProblem::el_centro();
         assert_eq!(problem.reference.len(), 201);
         assert_eq!(problem.reference[50], (500, 4.691_153_314_764_106e-3));
         assert_eq!(problem.reference[200].0, 2000);
@@ -151,14 +149,14 @@ mod tests {
 
     #[test]
     fn our_history_is_within_1e_10_m_of_the_reference() {
-        let problem = Problem::el_centro();
+        let problem = RockingProblem::el_centro();
         let theta = problem.ours();
         assert!(problem.error(&theta) < 1e-10);
     }
 
     #[test]
     fn a_short_or_wrong_history_is_an_error() {
-        let problem = Problem::el_centro();
+        let problem = RockingProblem::el_centro();
         let mut theta = problem.ours();
         assert_eq!(problem.error(&theta[..1500]), f64::INFINITY);
         theta[1000] = f64::NAN;

@@ -2,45 +2,18 @@
 
 use std::fmt::Write;
 
-use comfy_table::{Table, presets};
-
-use super::{
-    Peer, Series,
-    elements::Cost,
-    program::Run,
-    rigid::{self, Lanes},
+use crate::{
+    TimedSeries,
+    elements::HistoryCost,
+    measurements::Measurements,
+    program::ProgramRun,
+    rigid::{self, LaneTimes},
     skips::Skip,
+    table::{table, time},
+    targets,
 };
 
-/// Everything that was measured.
-#[derive(Clone, Debug, Default)]
-pub struct Measured {
-    /// Housner's equation: ours first.
-    pub rigid: Vec<Series>,
-    pub lanes: Option<Lanes>,
-    /// The finite element history: ours first, OpenSees after them.
-    pub elements: Vec<Series>,
-    /// How many of `elements` are ours.
-    pub own: usize,
-    pub stiffness: Vec<Cost>,
-    pub length: Vec<Cost>,
-    pub skips: Vec<Skip>,
-    /// (mu, seconds)
-    pub fits: Vec<(f64, f64)>,
-    pub runs: Vec<Run>,
-    /// Tools that were left out, and why.
-    pub left_out: Vec<String>,
-}
-
-impl Measured {
-    /// A peer's series, or why there is none.
-    pub fn add(left_out: &mut Vec<String>, list: &mut Vec<Series>, peer: Peer) {
-        match peer {
-            Ok(series) => list.push(series),
-            Err(reason) => left_out.push(reason),
-        }
-    }
-
+impl Measurements {
     /// All tables.
     pub fn text(&self) -> String {
         let mut out = format!(
@@ -70,7 +43,7 @@ impl Measured {
         section("Skipped", skips(&self.skips));
         section("Inner fit with certificate", fits(&self.fits));
         section("The program", runs(&self.runs));
-        section("Targets", super::targets::table_of(self));
+        section("Targets", targets::table_of(self));
         if !self.left_out.is_empty() {
             let _ = write!(out, "\nLeft out:\n- {}\n", self.left_out.join("\n- "));
         }
@@ -78,27 +51,8 @@ impl Measured {
     }
 }
 
-/// A table for the terminal that is Markdown too.
-pub(super) fn table<const N: usize>(head: [&str; N], rows: Vec<[String; N]>) -> String {
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN).set_header(head);
-    table.add_rows(rows);
-    table.to_string()
-}
-
-/// Three digits with a unit that suits.
-pub(super) fn time(seconds: f64) -> String {
-    let (value, unit) = match seconds {
-        s if s >= 1.0 => (s, "s"),
-        s if s >= 1e-3 => (s * 1e3, "ms"),
-        s => (s * 1e6, "us"),
-    };
-    let decimals = 2_usize.saturating_sub(value.max(1.0).log10() as usize);
-    format!("{value:.decimals$} {unit}")
-}
-
 /// Each point beside the cheapest of the first `own` series that is at least as accurate.
-fn work_precision(series: &[Series], unit: &str, own: usize) -> String {
+fn work_precision(series: &[TimedSeries], unit: &str, own: usize) -> String {
     let ours = &series[..own.min(series.len())];
     let ratio = |seconds: f64, error: f64| {
         let best = ours
@@ -128,14 +82,14 @@ fn work_precision(series: &[Series], unit: &str, own: usize) -> String {
     table(["tool", "setting", "time", "error", "times ours at this error", ""], rows.collect())
 }
 
-fn lanes_table(lanes: &Lanes) -> String {
+fn lanes_table(lanes: &LaneTimes) -> String {
     let row = |how: &str, seconds: f64| [how.to_string(), time(seconds)];
     let rows = vec![row("one by one", lanes.single), row("in lock-step", lanes.lanes)];
     let head = format!("{} structures around the paper's", lanes.structures);
     table([&head, "time of each"], rows)
 }
 
-fn costs(costs: &[Cost], what: &str, unit: &str) -> String {
+fn costs(costs: &[HistoryCost], what: &str, unit: &str) -> String {
     let rows = costs.iter().map(|c| {
         [
             format!("{} {unit}", c.at),
@@ -163,8 +117,8 @@ fn fits(fits: &[(f64, f64)]) -> String {
     )
 }
 
-fn runs(runs: &[Run]) -> String {
-    let row = |run: &Run| {
+fn runs(runs: &[ProgramRun]) -> String {
+    let row = |run: &ProgramRun| {
         let memory = run.memory.map_or("-".to_string(), |mb| format!("{mb:.0} MB"));
         [format!("tune {}", run.what), time(run.seconds), memory]
     };
@@ -173,16 +127,8 @@ fn runs(runs: &[Run]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::series;
     use super::*;
-
-    #[test]
-    fn times_have_three_digits_and_a_unit_that_suits() {
-        assert_eq!(time(91.4e-6), "91.4 us");
-        assert_eq!(time(1.2345e-3), "1.23 ms");
-        assert_eq!(time(12.3456), "12.3 s");
-        assert_eq!(time(0.123), "123 ms");
-    }
+    use crate::tests::series;
 
     #[test]
     fn a_peer_is_compared_with_our_cheapest_run_that_is_as_accurate() {

@@ -8,7 +8,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::{least, skips::Skip};
+use crate::{least, skips::Skip};
 use frequency_response::{
     bounds::Bounds,
     inner::{FitError, fit},
@@ -17,7 +17,7 @@ use frequency_response::{
 
 /// A run of the program.
 #[derive(Clone, Debug)]
-pub struct Run {
+pub struct ProgramRun {
     /// Its words, as "run --no-front".
     pub what: String,
     pub seconds: f64,
@@ -41,7 +41,7 @@ pub fn fits(rounds: usize) -> Result<Vec<(f64, f64)>, FitError> {
 /// What the program took, and what it saves by leaving out what not everyone wants.
 #[derive(Clone, Debug, Default)]
 pub struct Jobs {
-    pub runs: Vec<Run>,
+    pub runs: Vec<ProgramRun>,
     pub skips: Vec<Skip>,
 }
 
@@ -88,7 +88,10 @@ pub fn jobs(program: &Path, records: &[usize], rounds: usize) -> Result<Jobs, St
     Ok(jobs)
 }
 
-fn fastest(rounds: usize, run: impl Fn() -> Result<Run, String>) -> Result<Run, String> {
+fn fastest(
+    rounds: usize,
+    run: impl Fn() -> Result<ProgramRun, String>,
+) -> Result<ProgramRun, String> {
     let mut best = run()?;
     for _ in 1..rounds {
         let next = run()?;
@@ -100,7 +103,7 @@ fn fastest(rounds: usize, run: impl Fn() -> Result<Run, String>) -> Result<Run, 
 }
 
 /// Run the program with the words of `what` and more arguments, results into a folder.
-fn run(program: &Path, what: &str, more: &[&OsStr], out: &Path) -> Result<Run, String> {
+fn run(program: &Path, what: &str, more: &[&OsStr], out: &Path) -> Result<ProgramRun, String> {
     let failed = |e: std::io::Error| format!("tune {what}: {e}");
     let mut command = Command::new(program);
     command.args(what.split(' ')).args(more).arg("--quiet").arg("--out").arg(out);
@@ -120,7 +123,7 @@ fn run(program: &Path, what: &str, more: &[&OsStr], out: &Path) -> Result<Run, S
             None => std::thread::sleep(Duration::from_millis(2)),
         }
     }
-    Ok(Run { what: what.into(), seconds: began.elapsed().as_secs_f64(), memory })
+    Ok(ProgramRun { what: what.into(), seconds: began.elapsed().as_secs_f64(), memory })
 }
 
 /// Most memory a running process has held [MB], where /proc tells.

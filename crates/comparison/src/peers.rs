@@ -9,7 +9,7 @@ use std::{
 
 use serde::{Deserialize, Serialize};
 
-use super::{Peer, Point, Series, elements, rigid};
+use crate::{Peer, Point, TimedSeries, elements, rigid};
 use decks::{DeckFormat, Expected, export};
 use parameters::predictability::width_sensitivity;
 use rocking::motion::Motion;
@@ -30,7 +30,7 @@ struct Question<'a> {
 
 /// One of its answers.
 #[derive(Deserialize)]
-struct Answer {
+struct PeerAnswer {
     tool: String,
     rtol: f64,
     seconds: f64,
@@ -38,8 +38,13 @@ struct Answer {
 }
 
 /// SciPy's RK45 and DOP853, restarted at every sample.
-pub fn scipy(problem: &rigid::Problem, python: &Path, rtols: &[f64], rounds: usize) -> Vec<Peer> {
-    let rigid::Problem { body, record, .. } = problem;
+pub fn scipy(
+    problem: &rigid::RockingProblem,
+    python: &Path,
+    rtols: &[f64],
+    rounds: usize,
+) -> Vec<Peer> {
+    let rigid::RockingProblem { body, record, .. } = problem;
     let question = Question {
         p2: body.p_squared(),
         alpha: body.alpha(),
@@ -52,7 +57,7 @@ pub fn scipy(problem: &rigid::Problem, python: &Path, rtols: &[f64], rounds: usi
         rounds,
     };
     let asked = serde_json::to_vec(&question).map_err(|e| e.to_string());
-    let answers: Result<Vec<Answer>, String> = asked
+    let answers: Result<Vec<PeerAnswer>, String> = asked
         .and_then(|stdin| {
             run(
                 "SciPy",
@@ -70,14 +75,14 @@ pub fn scipy(problem: &rigid::Problem, python: &Path, rtols: &[f64], rounds: usi
         own.map(|a| point(problem, a.rtol, a.seconds, &a.theta)).collect()
     };
     let series = |tool: &str| {
-        Ok(Series { tool: format!("{tool}, restarted at every sample"), points: points(tool) })
+        Ok(TimedSeries { tool: format!("{tool}, restarted at every sample"), points: points(tool) })
     };
     vec![series("SciPy RK45"), series("SciPy DOP853")]
 }
 
 /// Octave's ode45 with Events, the paper's tool.
-pub fn octave(problem: &rigid::Problem, rtols: &[f64], rounds: usize) -> Peer {
-    let rigid::Problem { body, record, .. } = problem;
+pub fn octave(problem: &rigid::RockingProblem, rtols: &[f64], rounds: usize) -> Peer {
+    let rigid::RockingProblem { body, record, .. } = problem;
     let folder = tempfile::tempdir().map_err(|e| format!("Octave: no temporary folder ({e})"))?;
     let [script, asked, answer] =
         ["housner.m", "asked.txt", "answer.txt"].map(|name| folder.path().join(name));
@@ -112,10 +117,10 @@ pub fn octave(problem: &rigid::Problem, rtols: &[f64], rounds: usize) -> Peer {
         .zip(blocks)
         .map(|(&rtol, block)| point(problem, rtol, block[0], &block[1..]))
         .collect();
-    Ok(Series { tool: "Octave ode45 with Events".into(), points })
+    Ok(TimedSeries { tool: "Octave ode45 with Events".into(), points })
 }
 
-fn point(problem: &rigid::Problem, rtol: f64, seconds: f64, theta: &[f64]) -> Point {
+fn point(problem: &rigid::RockingProblem, rtol: f64, seconds: f64, theta: &[f64]) -> Point {
     Point {
         setting: format!("rtol {rtol:.0e}"),
         seconds,
@@ -126,7 +131,7 @@ fn point(problem: &rigid::Problem, rtol: f64, seconds: f64, theta: &[f64]) -> Po
 
 /// How OpenSees steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Stepping {
+pub enum OpenSeesStepping {
     /// All steps alike, as an engineer's own deck would.
     Even,
     /// As the exported deck does: fine ones where a foot touches or lifts.
@@ -139,12 +144,12 @@ pub fn opensees(
     bench: &elements::BenchCase,
     tight: &Motion,
     python: &Path,
-    stepping: Stepping,
+    stepping: OpenSeesStepping,
     steps: &[usize],
 ) -> Peer {
     let (word, told) = match stepping {
-        Stepping::Even => ("even", "even steps"),
-        Stepping::Watched => ("watched", "our deck"),
+        OpenSeesStepping::Even => ("even", "even steps"),
+        OpenSeesStepping::Watched => ("watched", "our deck"),
     };
     let history = bench.simulate(Default::default());
     let width_sensitivity = width_sensitivity(&history.motion, &bench.parameters(), &bench.record);
@@ -176,7 +181,7 @@ pub fn opensees(
             _ => format!("against its own finest {:.0e}", elements::error(motion, finest)),
         },
     };
-    Ok(Series {
+    Ok(TimedSeries {
         tool: format!("OpenSees, {told}, {}", bench.name),
         points: runs.iter().map(point).collect(),
     })
@@ -239,7 +244,8 @@ mod tests {
     #[test]
     fn a_tool_that_is_not_installed_or_fails_is_one_line() {
         let nothing = Path::new("no-such-interpreter");
-        let [Err(reason)] = &scipy(&rigid::Problem::el_centro(), nothing, &[1e-6], 1)[..] else {
+        let [Err(reason)] = &scipy(&rigid::RockingProblem::el_centro(), nothing, &[1e-6], 1)[..]
+        else {
             panic!()
         };
         assert!(
@@ -247,8 +253,8 @@ mod tests {
                 && reason.lines().count() == 1
         );
         let bench = elements::BenchCase::plain(20.0);
-        let reason =
-            opensees(&bench, &Motion::default(), nothing, Stepping::Even, &[1]).unwrap_err();
+        let reason = opensees(&bench, &Motion::default(), nothing, OpenSeesStepping::Even, &[1])
+            .unwrap_err();
         assert!(reason.starts_with("OpenSees: no-such-interpreter cannot be run"), "{reason}");
         let failed = run("false", &mut Command::new("false"), &[]);
         assert_eq!(failed, Err("false: stopped without a word".into()));

@@ -3,7 +3,7 @@
 
 use std::{hint::black_box, ops::ControlFlow};
 
-use super::{
+use crate::{
     alternate,
     elements::{BenchCase, at, structure},
 };

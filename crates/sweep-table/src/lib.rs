@@ -3,7 +3,9 @@
 //! Parquet: one row group a file, Snappy, no statistics of strings; a missing number is a null. The
 //! same table gives the same bytes.
 
-use std::{collections::BTreeMap, fmt::Write as _, io::Write, sync::Arc};
+#![warn(missing_docs)]
+
+use std::{collections::BTreeMap, fmt::Write as _, sync::Arc};
 
 use bytes::Bytes;
 
@@ -140,7 +142,7 @@ impl SweepTable {
     }
 
     /// A column of yes and no.
-    pub(crate) fn flags(&self, name: &str) -> &[Option<bool>] {
+    pub fn flags(&self, name: &str) -> &[Option<bool>] {
         match self.columns.iter().find(|(other, _)| *other == name) {
             Some((_, Column::Flag(values))) => values,
             _ => &[],
@@ -159,11 +161,7 @@ impl SweepTable {
     ///
     /// # Errors
     /// It cannot be written.
-    pub(crate) fn write_parquet(
-        &self,
-        out: impl Write + Send,
-        metadata: &[(&'static str, String)],
-    ) -> Result<(), ParquetError> {
+    pub fn parquet(&self, metadata: &[(&'static str, String)]) -> Result<Vec<u8>, ParquetError> {
         let metadata =
             metadata.iter().map(|(key, value)| KeyValue::new((*key).to_string(), value.clone()));
         let fields: String =
@@ -180,7 +178,8 @@ impl SweepTable {
                     .set_column_encoding((*name).into(), Encoding::PLAIN);
             }
         }
-        let mut writer = SerializedFileWriter::new(out, schema, Arc::new(properties.build()))?;
+        let mut writer =
+            SerializedFileWriter::new(Vec::new(), schema, Arc::new(properties.build()))?;
         let mut group = writer.next_row_group()?;
         let mut columns = self.columns.iter();
         while let Some(mut writer) = group.next_column()? {
@@ -190,12 +189,11 @@ impl SweepTable {
             writer.close()?;
         }
         group.close()?;
-        writer.close()?;
-        Ok(())
+        writer.into_inner()
     }
 
     /// The metadata of a Parquet file, and how many rows it has.
-    pub(crate) fn metadata(bytes: Bytes) -> Option<(BTreeMap<String, String>, u64)> {
+    pub fn metadata(bytes: Bytes) -> Option<(BTreeMap<String, String>, u64)> {
         let reader = SerializedFileReader::new(bytes).ok()?;
         let file = reader.metadata().file_metadata();
         let pairs = file.key_value_metadata()?.iter();
@@ -208,7 +206,7 @@ impl SweepTable {
     ///
     /// # Errors
     /// The file is none, or does not have them.
-    pub(crate) fn read_parquet(bytes: Bytes, wanted: &Self) -> Result<Self, ParquetError> {
+    pub fn read_parquet(bytes: Bytes, wanted: &Self) -> Result<Self, ParquetError> {
         read(bytes, wanted)
     }
 
@@ -304,9 +302,7 @@ mod tests {
     }
 
     fn parquet() -> Vec<u8> {
-        let mut bytes = Vec::new();
-        table().write_parquet(&mut bytes, &[("sweep", "0123".into())]).unwrap();
-        bytes
+        table().parquet(&[("sweep", "0123".into())]).unwrap()
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-use super::{Point, Series, least};
+use crate::{Point, TimedSeries, least};
 use dynamics::{
     fem::{Analysis, Control, History, Start},
     spring::{Design, Springs},
@@ -95,7 +95,7 @@ impl BenchCase {
     }
 
     /// Time, error and work at each tolerance.
-    pub fn ladder(&self, tolerances: &[f64], reference: &Motion, rounds: usize) -> Series {
+    pub fn ladder(&self, tolerances: &[f64], reference: &Motion, rounds: usize) -> TimedSeries {
         let point = |&tolerance: &f64| {
             let (seconds, history) = least(rounds, || self.simulate(black_box(at(tolerance))));
             Point {
@@ -109,7 +109,7 @@ impl BenchCase {
                 ),
             }
         };
-        Series {
+        TimedSeries {
             tool: format!("groundspring, {}", self.name),
             points: tolerances.iter().map(point).collect(),
         }
@@ -137,7 +137,7 @@ pub fn steps(history: &History) -> usize {
 
 /// What one history cost.
 #[derive(Clone, Copy, Debug)]
-pub struct Cost {
+pub struct HistoryCost {
     /// Omega_n [Hz] or length [s].
     pub at: f64,
     pub seconds: f64,
@@ -148,12 +148,12 @@ pub struct Cost {
 }
 
 /// Cost against stiffness, 20 s of El Centro.
-pub fn against_stiffness(hz: &[f64], rounds: usize) -> Vec<Cost> {
+pub fn against_stiffness(hz: &[f64], rounds: usize) -> Vec<HistoryCost> {
     hz.iter().map(|&hz| cost(hz, &BenchCase::plain(hz), rounds)).collect()
 }
 
 /// Cost against length; the record is El Centro's first 20 s, over and over.
-pub fn against_length(seconds: &[f64], rounds: usize) -> Vec<Cost> {
+pub fn against_length(seconds: &[f64], rounds: usize) -> Vec<HistoryCost> {
     let once = el_centro();
     let bench = |length: f64| {
         let samples = (length / once.dt).round() as usize + 1;
@@ -163,10 +163,10 @@ pub fn against_length(seconds: &[f64], rounds: usize) -> Vec<Cost> {
     seconds.iter().map(|&length| cost(length, &bench(length), rounds)).collect()
 }
 
-fn cost(at: f64, bench: &BenchCase, rounds: usize) -> Cost {
+fn cost(at: f64, bench: &BenchCase, rounds: usize) -> HistoryCost {
     let (seconds, history) = least(rounds, || bench.simulate(black_box(Control::default())));
     let error = error(&history.motion, &bench.tight());
-    Cost { at, seconds, steps: steps(&history), impacts: history.impacts(), error }
+    HistoryCost { at, seconds, steps: steps(&history), impacts: history.impacts(), error }
 }
 
 fn el_centro() -> Record {

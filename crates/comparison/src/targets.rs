@@ -1,25 +1,26 @@
 //! The targets, the measured value beside each.
 
-use super::{
-    report::{Measured, table, time},
+use crate::{
+    measurements::Measurements,
     rigid::SECONDS,
+    table::{table, time},
 };
 
 /// A target and how it fared.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Target {
+pub struct SpeedTarget {
     pub what: String,
     pub wanted: String,
     pub measured: String,
     pub met: bool,
 }
 
-impl Measured {
+impl Measurements {
     /// Every target that something was measured for.
-    pub fn targets(&self) -> Vec<Target> {
+    pub fn targets(&self) -> Vec<SpeedTarget> {
         let mut targets = Vec::new();
         let mut add = |what: &str, wanted: &str, measured: String, met: bool| {
-            targets.push(Target { what: what.into(), wanted: wanted.into(), measured, met });
+            targets.push(SpeedTarget { what: what.into(), wanted: wanted.into(), measured, met });
         };
         self.rigid_targets(&mut add);
         for own in &self.elements[..self.own.min(self.elements.len())] {
@@ -147,8 +148,8 @@ impl Measured {
 }
 
 /// The targets as a table.
-pub(super) fn table_of(measured: &Measured) -> String {
-    let row = |t: Target| {
+pub(crate) fn table_of(measured: &Measurements) -> String {
+    let row = |t: SpeedTarget| {
         [t.what, t.wanted, t.measured, (if t.met { "met" } else { "not met" }).to_string()]
     };
     let head = format!("{SECONDS} s of El Centro");
@@ -157,8 +158,8 @@ pub(super) fn table_of(measured: &Measured) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{program::Run, tests::series};
     use super::*;
+    use crate::{program::ProgramRun, tests::series};
 
     #[test]
     fn a_peer_that_is_too_inaccurate_does_not_count() {
@@ -166,7 +167,7 @@ mod tests {
             series("groundspring", &[(1e-4, 1e-12)]),
             series("diffsol", &[(2e-4, 1e-5), (5e-4, 1e-11)]),
         ];
-        let targets = Measured { rigid, ..Measured::default() }.targets();
+        let targets = Measurements { rigid, ..Measurements::default() }.targets();
         assert!(targets[0].met && targets[0].measured.starts_with("5.0 times"), "{targets:?}");
     }
 
@@ -175,20 +176,25 @@ mod tests {
         let ours = series("groundspring, x", &[(1e-3, 4e-4), (2e-3, 1e-5)]);
         let peer = series("OpenSees TRBDF2, x", &[(1.0, 1e-1), (5.0, 3e-4)]);
         let targets =
-            Measured { elements: vec![ours, peer], own: 1, ..Measured::default() }.targets();
+            Measurements { elements: vec![ours, peer], own: 1, ..Measurements::default() }
+                .targets();
         assert!(targets[0].met && targets[1].met);
         assert!(targets[1].measured.starts_with("5000 times"), "{targets:?}");
     }
 
     #[test]
     fn linear_time_and_the_gain_of_two_cores_are_told() {
-        let run = |what: &str, seconds: f64| Run { what: what.into(), seconds, memory: Some(20.0) };
+        let run = |what: &str, seconds: f64| ProgramRun {
+            what: what.into(),
+            seconds,
+            memory: Some(20.0),
+        };
         let runs = vec![
             run("validate --synthetic 100 --jobs 2", 1.0),
             run("validate --synthetic 1000 --jobs 2", 10.0),
             run("validate --synthetic 1000 --jobs 1", 18.0),
         ];
-        let targets = Measured { runs, ..Measured::default() }.targets();
+        let targets = Measurements { runs, ..Measurements::default() }.targets();
         assert_eq!(targets.iter().map(|t| t.met).collect::<Vec<_>>(), [true, false, true]);
         assert_eq!(targets[1].measured, "1.80 times");
     }
