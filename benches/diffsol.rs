@@ -17,26 +17,26 @@ use rocking::scalar::GRAVITY;
 /// A body at rest that is lifted once and then rocks on, and its record.
 #[derive(Clone, Copy, Debug)]
 pub struct Case<'a> {
-    /// p^2 [1/s2].
+    /// p^2 (1/s2).
     pub p2: f64,
-    /// alpha [rad].
+    /// alpha (rad).
     pub alpha: f64,
     /// Velocity restitution.
     pub e: f64,
-    /// Gravity [m/s2].
+    /// Gravity (m/s2).
     pub g: f64,
-    /// Sampling interval [s].
+    /// Sampling interval (s).
     pub dt: f64,
-    /// Ground acceleration [m/s2].
+    /// Ground acceleration (m/s2).
     pub accel: &'a [f64],
 }
 
 /// What the equation needs to know of the interval it is in.
 #[derive(Clone, Copy, Default)]
 struct Here {
-    /// Start of the interval [s].
+    /// Start of the interval (s).
     t: f64,
-    /// Ground acceleration there [g] and its slope [g/s].
+    /// Ground acceleration there (g) and its slope (g/s).
     a: f64,
     slope: f64,
     /// sgn(theta).
@@ -64,7 +64,7 @@ impl<'a> Case<'a> {
         }
     }
 
-    /// theta at every sample [rad] with relative tolerance `rtol`.
+    /// theta at every sample (rad) with relative tolerance `rtol`.
     ///
     /// # Errors
     /// diffsol gives up.

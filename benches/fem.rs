@@ -106,7 +106,7 @@ fn ratio(bench: &BenchCase, cases: &[Analysis], threads: &rayon::ThreadPool) {
     );
 }
 
-/// Largest rotation at a sample [rad].
+/// Largest rotation at a sample (rad).
 struct Peak(f64);
 
 impl Observer for Peak {

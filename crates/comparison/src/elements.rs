@@ -57,7 +57,7 @@ impl BenchCase {
         }
     }
 
-    /// The same ratios, which hardly bounce, at any frequency [Hz].
+    /// The same ratios, which hardly bounce, at any frequency (Hz).
     pub fn plain(omega_n_hz: f64) -> Self {
         let chain = Design::from_kc(0.5, 0.2, 0.92, omega_n_hz);
         let springs = Springs { vertical: chain, horizontal: chain };
@@ -138,7 +138,7 @@ pub fn steps(history: &History) -> usize {
 /// What one history cost.
 #[derive(Clone, Copy, Debug)]
 pub struct HistoryCost {
-    /// Omega_n [Hz] or length [s].
+    /// Omega_n (Hz) or length (s).
     pub at: f64,
     pub seconds: f64,
     pub steps: usize,

@@ -38,7 +38,7 @@ pub use measurements::Measurements;
 pub struct Point {
     /// As "rtol 1e-6".
     pub setting: String,
-    /// Least time [s].
+    /// Least time (s).
     pub seconds: f64,
     /// In the comparison's own measure.
     pub error: f64,
@@ -151,7 +151,7 @@ pub fn measure(
     Ok(m)
 }
 
-/// Least time of each contender over `rounds` rounds in which they take turns [s].
+/// Least time of each contender over `rounds` rounds in which they take turns (s).
 pub fn alternate(contenders: &mut [&mut dyn FnMut()], rounds: usize) -> Vec<f64> {
     let mut least = vec![f64::INFINITY; contenders.len()];
     for _ in 0..rounds {
@@ -177,7 +177,7 @@ pub fn least<T>(rounds: usize, mut contender: impl FnMut() -> T) -> (f64, T) {
     (least, out)
 }
 
-/// A tool's name and its (error, time [ms]).
+/// A tool's name and its (error, time (ms)).
 type DrawnSeries = (String, Vec<(f64, f64)>);
 
 fn series(drawn: &[DrawnSeries]) -> Vec<precision::ToolSeries<'_>> {

@@ -21,7 +21,7 @@ pub struct ProgramRun {
     /// Its words, as "run --no-front".
     pub what: String,
     pub seconds: f64,
-    /// Most memory it held [MB]; none where the system does not tell.
+    /// Most memory it held (MB); none where the system does not tell.
     pub memory: Option<f64>,
 }
 
@@ -126,7 +126,7 @@ fn run(program: &Path, what: &str, more: &[&OsStr], out: &Path) -> Result<Progra
     Ok(ProgramRun { what: what.into(), seconds: began.elapsed().as_secs_f64(), memory })
 }
 
-/// Most memory a running process has held [MB], where /proc tells.
+/// Most memory a running process has held (MB), where /proc tells.
 fn peak_memory(child: &Child) -> Option<f64> {
     let status = std::fs::read_to_string(format!("/proc/{}/status", child.id())).ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;

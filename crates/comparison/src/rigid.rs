@@ -9,7 +9,7 @@ use rocking::{
 };
 use strong_motion::Record;
 
-/// Length of the history [s].
+/// Length of the history (s).
 pub const SECONDS: f64 = 20.0;
 
 /// The history that every tool follows, and its reference.
@@ -17,7 +17,7 @@ pub const SECONDS: f64 = 20.0;
 pub struct RockingProblem {
     pub body: Body<f64>,
     pub record: Record,
-    /// Sample and theta [rad].
+    /// Sample and theta (rad).
     reference: Vec<(usize, f64)>,
 }
 
@@ -36,7 +36,7 @@ impl RockingProblem {
         }
     }
 
-    /// Largest error of u over the samples that the reference tells [m]; infinite if the history is
+    /// Largest error of u over the samples that the reference tells (m); infinite if the history is
     /// too short.
     pub fn error(&self, theta: &[f64]) -> f64 {
         let error = |&(i, reference): &(usize, f64)| {
@@ -62,7 +62,7 @@ pub struct Solver<'a> {
     pub tool: &'a str,
     /// Tolerances.
     pub ladder: [f64; 2],
-    /// theta at every sample [rad] with a relative tolerance; none if it gives up.
+    /// theta at every sample (rad) with a relative tolerance; none if it gives up.
     pub theta: &'a dyn Fn(&RockingProblem, f64) -> Option<Vec<f64>>,
 }
 
@@ -100,9 +100,9 @@ pub fn series(problem: &RockingProblem, other: &Solver, rounds: usize) -> Vec<Ti
 #[derive(Clone, Copy, Debug)]
 pub struct LaneTimes {
     pub structures: usize,
-    /// [s]
+    /// (s)
     pub single: f64,
-    /// [s]
+    /// (s)
     pub lanes: f64,
 }
 

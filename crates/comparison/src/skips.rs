@@ -21,7 +21,7 @@ use validation::ComparisonObserver;
 #[derive(Clone, Debug)]
 pub struct Skip {
     pub what: &'static str,
-    /// Time with the skip, and without it [s].
+    /// Time with the skip, and without it (s).
     pub with: f64,
     pub without: f64,
     /// What both ways agree in.
@@ -44,7 +44,7 @@ pub fn all(rounds: usize) -> Vec<Skip> {
     ]
 }
 
-/// The impact springs on El Centro, times a factor, with silence around it [s].
+/// The impact springs on El Centro, times a factor, with silence around it (s).
 fn silent(before: f64, factor: f64, after: f64) -> BenchCase {
     let mut bench = BenchCase::damped();
     let zeros = |seconds: f64| vec![0.0; (seconds / bench.record.dt).round() as usize];
