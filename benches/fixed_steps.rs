@@ -3,7 +3,7 @@
 //!
 //! ```sh
 //! cargo bench --bench fixed_steps                 # error over the step, and figures/fixed_steps.png
-//! cargo bench --bench fixed_steps -- search       # beside the best of 500 springs drawn at random
+//! cargo bench --bench fixed_steps -- search       # a run's beside the best of 500 springs drawn at random
 //! cargo bench --bench fixed_steps -- stance       # error and lost histories over the stance
 //! cargo bench --bench fixed_steps -- events       # with and without event-to-event stepping
 //! ```
@@ -14,6 +14,7 @@
 
 use std::path::Path;
 
+use dynamics::effort::Effort;
 use figures::precision::{self, PrecisionFigure, ToolSeries};
 use fixed_steps::{
     EventStepping, FixedStepBody, FixedStepDesign, FixedStepProgram, FixedStepSprings, Integrator,
@@ -26,13 +27,18 @@ use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
 use rocking::structure::{Body, Structure};
-use springs::fixed_steps::{LONGEST, design};
+use springs::{
+    fixed_steps::{LONGEST, ProgramSprings, design},
+    suite::Suites,
+};
 
 type BenchError = Box<dyn std::error::Error>;
 
 /// Seeds of motions: measured on, chosen on by the search.
 const SEED: u64 = 31;
 const SEARCHED_ON: u64 = 77;
+/// The seed by which a run chooses springs.
+const OF_A_RUN: u64 = 1940;
 /// Motions of a row, of so many that are looked at.
 const MOTIONS: usize = 24;
 const LOOKED_AT: usize = 200;
@@ -94,12 +100,22 @@ fn errors_with(
 ) -> Option<ErrorsOverMotions> {
     let FixedStepProgram { integrator, step, .. } = *program;
     let springs = FixedStepSprings::designed(&of.body, step, integrator, numbers).ok()?;
+    Some(errors_of(of, program, &springs, events))
+}
+
+/// The same of springs.
+fn errors_of(
+    of: &WellConditioned,
+    program: &FixedStepProgram,
+    springs: &FixedStepSprings,
+    events: Option<EventStepping>,
+) -> ErrorsOverMotions {
     let chains = springs.chains();
     let settings = program.settings(chains.vertical.k1, springs.body.mass);
     let settings = StepSettings { events, ..settings };
     let model = FixedStepBody::new(&springs.body, &chains);
     let all = of.motions.par_iter().map(|motion| motion.errors(&model, settings));
-    Some(ErrorsOverMotions::of(all.collect::<Vec<_>>()))
+    ErrorsOverMotions::of(all.collect::<Vec<_>>())
 }
 
 fn over_steps() -> Result<(), BenchError> {
@@ -164,6 +180,16 @@ fn drawn(random: &mut ChaCha8Rng) -> FixedStepDesign {
     }
 }
 
+/// What the springs err that a run takes for this integrator.
+fn of_a_run(of: &WellConditioned, integrator: Integrator) -> Result<ErrorsOverMotions, BenchError> {
+    let step = SEARCH_STEP;
+    let program = FixedStepProgram { name: None, integrator, step, ..FixedStepProgram::usual() };
+    let (body, effort) = (&of.body, Effort::unbounded());
+    let suites = Suites::of_seed(OF_A_RUN, body, body.restitution(), None);
+    let run = ProgramSprings::measured(body, program, &suites, true, &effort)?;
+    Ok(errors_of(of, &program, &run.springs, None))
+}
+
 fn search() -> Result<(), BenchError> {
     println!("median NRMSE over p dt at {SEARCH_STEP} s: own springs, the best of {EVALUATIONS}");
     for (name, body) in bodies()? {
@@ -184,8 +210,8 @@ fn search() -> Result<(), BenchError> {
                     best = (found, numbers);
                 }
             }
-            let own = design(&body, SEARCH_STEP);
-            let (own, found) = (median(&judged_on, &own), median(&judged_on, &best.1));
+            let own = of_a_run(&judged_on, *integrator)?.quantile(0.5);
+            let found = median(&judged_on, &best.1);
             println!(
                 "{name}, {integrator_name}: {:.1}, {:.1}; ratio {:.2}",
                 own / p_dt,
