@@ -18,7 +18,7 @@ use std::{
 
 use clap::Parser;
 use comparison::{
-    ComparisonEffort, draw, measure, page,
+    FULL, OtherPrograms, QUICK, draw, measure, page,
     rigid::{RockingProblem, Solver},
 };
 
@@ -52,14 +52,19 @@ fn main() -> Result<(), Box<dyn Error>> {
     // cargo bench runs it in this crate's folder; paths are those of the workspace's
     env::set_current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(".."))?;
     let o = Options::parse();
-    let effort = if o.quick { ComparisonEffort::quick() } else { ComparisonEffort::full() };
+    let (rounds, programs) = if o.quick {
+        (QUICK, None)
+    } else {
+        (FULL, Some(OtherPrograms { python: o.python, tune: program()? }))
+    };
     let solver = Solver {
         tool: "diffsol Tsit45, stopped at every sample",
         ladder: LADDER,
-        theta: &|problem: &RockingProblem, rtol| diffsol::Case::of(problem).theta(rtol).ok(),
+        theta: &|problem: &RockingProblem, rtol| {
+            diffsol::DiffsolHistory::of(problem).theta(rtol).ok()
+        },
     };
-    let program = if effort.programs { program()? } else { PathBuf::new() };
-    let measured = measure(&effort, &solver, &o.python, &program, &|what| eprintln!("{what}"))?;
+    let measured = measure(rounds, &solver, programs.as_ref(), &|what| eprintln!("{what}"))?;
     let text = measured.text();
     print!("{text}");
     if let Some(out) = &o.out {
@@ -77,15 +82,18 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The program, built as users build it. Cargo tells its path only to tests of its own package; it
-/// stands above this benchmark's folder.
+/// The program, built as users build it, in the folder that this benchmark was built in: Cargo
+/// tells where a program is only to tests of its own package.
 fn program() -> Result<PathBuf, Box<dyn Error>> {
-    let built =
-        Command::new(env!("CARGO")).args(["build", "--release", "--bin", "tune"]).status()?;
+    let here = env::current_exe()?;
+    // DIR/release/deps/compare-...
+    let target = here.ancestors().nth(3).ok_or("this benchmark has no folder")?;
+    let built = Command::new(env!("CARGO"))
+        .args(["build", "--release", "--bin", "tune", "--target-dir"])
+        .arg(target)
+        .status()?;
     if !built.success() {
         return Err("cargo build --release --bin tune: failed".into());
     }
-    let here = env::current_exe()?;
-    let folder = here.ancestors().nth(2).ok_or("this benchmark has no folder")?;
-    Ok(folder.join(format!("tune{}", env::consts::EXE_SUFFIX)))
+    Ok(target.join("release").join(format!("tune{}", env::consts::EXE_SUFFIX)))
 }

@@ -16,7 +16,7 @@ use rocking::scalar::GRAVITY;
 
 /// A body at rest that is lifted once and then rocks on, and its record.
 #[derive(Clone, Copy, Debug)]
-pub struct Case<'a> {
+pub struct DiffsolHistory<'a> {
     /// p^2 (1/s2).
     pub p2: f64,
     /// alpha (rad).
@@ -51,7 +51,7 @@ struct Mark {
     rate: f64,
 }
 
-impl<'a> Case<'a> {
+impl<'a> DiffsolHistory<'a> {
     /// A history of the comparison.
     pub fn of(problem: &'a RockingProblem) -> Self {
         Self {

@@ -25,7 +25,7 @@ fn housner(c: &mut Criterion) {
 
 fn peers(c: &mut Criterion) {
     let problem = RockingProblem::el_centro();
-    let case = diffsol::Case::of(&problem);
+    let case = diffsol::DiffsolHistory::of(&problem);
     let error = problem.error(&case.theta(1e-9).expect("diffsol follows the record"));
     assert!(error < 1e-10, "diffsol's error is {error:e} m");
     let mut group = c.benchmark_group("housner");

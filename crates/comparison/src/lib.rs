@@ -25,7 +25,11 @@ mod skips;
 mod table;
 mod targets;
 
-use std::{error::Error, path::Path, time::Instant};
+use std::{
+    error::Error,
+    path::{Path, PathBuf},
+    time::Instant,
+};
 
 use figures::precision::{self, PrecisionFigure};
 use frequency_response::inner::FitError;
@@ -66,55 +70,41 @@ impl TimedSeries {
 /// Another tool's part: what it did, or in one line why it is left out.
 pub type Peer = Result<TimedSeries, String>;
 
-/// How much is measured.
+/// Rounds for what takes less than a millisecond, and for what takes longer: a few seconds in all.
+pub const QUICK: [usize; 2] = [20, 3];
+/// The same for a few minutes.
+pub const FULL: [usize; 2] = [400, 40];
+/// OpenSees' steps per sample; the last one is its own reference.
+const OPENSEES_STEPS: [usize; 6] = [1, 10, 25, 50, 100, 200];
+/// Records that `tune validate` judges.
+const RECORDS: [usize; 3] = [100, 300, 1000];
+
+/// Programs that are run beside our own code.
 #[derive(Clone, Debug)]
-pub struct ComparisonEffort {
-    /// Rounds for what takes less than a millisecond, and for what takes longer.
-    pub rounds: [usize; 2],
-    /// Whether other programs, and our own as a whole, are run.
-    pub programs: bool,
-    /// OpenSees' steps per sample; the last one is its own reference.
-    pub opensees: &'static [usize],
-    /// Records that `tune validate` judges.
-    pub records: &'static [usize],
+pub struct OtherPrograms {
+    /// Python with SciPy and openseespy.
+    pub python: PathBuf,
+    /// Our own as a whole.
+    pub tune: PathBuf,
 }
 
-impl ComparisonEffort {
-    /// A few seconds, nothing but our own code.
-    pub fn quick() -> Self {
-        Self { rounds: [20, 3], programs: false, opensees: &[], records: &[] }
-    }
-
-    /// A few minutes.
-    pub fn full() -> Self {
-        Self {
-            rounds: [400, 40],
-            programs: true,
-            opensees: &[1, 10, 25, 50, 100, 200],
-            records: &[100, 300, 1000],
-        }
-    }
-}
-
-/// Measure everything. `solver` stands beside ours on Housner's equation; `program` is `tune`;
-/// `tell` hears what comes next.
+/// Measure everything; other programs, if there are any. `solver` stands beside ours on Housner's
+/// equation; `tell` hears what comes next.
 ///
 /// # Errors
 /// An inner fit fails. Tools that are not there, or fail, are told in the result.
 pub fn measure(
-    effort: &ComparisonEffort,
+    [many, few]: [usize; 2],
     solver: &Solver,
-    python: &Path,
-    program: &Path,
+    programs: Option<&OtherPrograms>,
     tell: &dyn Fn(&str),
 ) -> Result<Measurements, FitError> {
-    let [many, few] = effort.rounds;
     let mut m = Measurements::default();
     let problem = rigid::RockingProblem::el_centro();
     tell("Housner's equation");
     m.rigid = rigid::series(&problem, solver, many);
     m.lanes = Some(rigid::lanes(&problem, 64, few));
-    if effort.programs {
+    if let Some(OtherPrograms { python, .. }) = programs {
         tell("Housner's equation: SciPy, Octave");
         for peer in peers::scipy(&problem, python, &[1e-3, 1e-6, 1e-9], 3) {
             Measurements::add(&mut m.left_out, &mut m.rigid, peer);
@@ -131,16 +121,16 @@ pub fn measure(
     m.length = elements::against_length(&[5.0, 10.0, 20.0, 40.0], few);
     m.skips = skips::all(few.max(10));
     m.fits = program::fits(few)?;
-    if effort.programs {
+    if let Some(OtherPrograms { python, tune }) = programs {
         for (tight, bench) in &benches {
             tell(&format!("OpenSees, {}", bench.name));
             for stepping in [OpenSeesStepping::Even, OpenSeesStepping::Watched] {
-                let peer = peers::opensees(bench, tight, python, stepping, effort.opensees);
+                let peer = peers::opensees(bench, tight, python, stepping, &OPENSEES_STEPS);
                 Measurements::add(&mut m.left_out, &mut m.elements, peer);
             }
         }
         tell("tune run, tune validate");
-        match program::jobs(program, effort.records, 3) {
+        match program::jobs(tune, &RECORDS, 3) {
             Ok(jobs) => {
                 m.runs = jobs.runs;
                 m.skips.extend(jobs.skips);
@@ -177,7 +167,7 @@ pub fn least<T>(rounds: usize, mut contender: impl FnMut() -> T) -> (f64, T) {
     (least, out)
 }
 
-/// A tool's name and its (error, time (ms)).
+/// A tool's name; its errors, each with the time (ms) that it took.
 type DrawnSeries = (String, Vec<(f64, f64)>);
 
 fn series(drawn: &[DrawnSeries]) -> Vec<precision::ToolSeries<'_>> {

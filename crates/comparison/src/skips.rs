@@ -9,7 +9,7 @@ use crate::{
 };
 use dynamics::{
     effort::Effort,
-    fem::{Analysis, Control, Observer, Recorder, Start, View},
+    fem::{Analysis, Control, Observer, Recorder, View},
     spring::{Design, Springs},
 };
 use rocking::housner;
@@ -83,16 +83,7 @@ fn toppled(rounds: usize) -> Skip {
     let mut accel = vec![4.0; (3.0 / dt) as usize];
     accel.resize((33.0 / dt) as usize, 0.0);
     let theta = housner::solve(&body, dt, &accel, &housner::RockingOptions::default()).theta;
-    let case = Analysis {
-        body,
-        springs: bench.springs.chains(body.mass),
-        start: Start::Settled,
-        dt,
-        accel: &accel,
-        vertical: &[],
-        scale: 1.0,
-        control: Control::default(),
-    };
+    let case = Analysis { accel: &accel, ..bench.case(1.0, Control::default()) };
     let watch = || ComparisonObserver::new(&body, &theta, &accel);
     let fallen = |last: (f64, f64)| last.0.abs() > body.alpha();
     let mut with = || {
@@ -186,17 +177,7 @@ fn candidates(rounds: usize) -> Skip {
 /// A search needs the motion at the samples only, not forces, energies and events.
 fn history(rounds: usize) -> Skip {
     let bench = BenchCase::damped();
-    let body = structure().body::<f64>();
-    let case = Analysis {
-        body,
-        springs: bench.springs.chains(body.mass),
-        start: Start::Settled,
-        dt: bench.record.dt,
-        accel: &bench.record.accel,
-        vertical: &[],
-        scale: 1.0,
-        control: at(1e-7),
-    };
+    let case = bench.case(1.0, at(1e-7));
     let watched = || {
         let mut last = 0.0;
         case.observe(&mut |_: usize, view: &View| {
