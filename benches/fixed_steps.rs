@@ -29,7 +29,7 @@ use rayon::prelude::*;
 use rocking::structure::{Body, Structure};
 use springs::{
     fixed_steps::{LONGEST, ProgramSprings, design},
-    suite::Suites,
+    suite::{self, Suites},
 };
 
 type BenchError = Box<dyn std::error::Error>;
@@ -37,8 +37,6 @@ type BenchError = Box<dyn std::error::Error>;
 /// Seeds of motions: measured on, chosen on by the search.
 const SEED: u64 = 31;
 const SEARCHED_ON: u64 = 77;
-/// The seed by which a run chooses springs.
-const OF_A_RUN: u64 = 1940;
 /// Motions of a row, of so many that are looked at.
 const MOTIONS: usize = 24;
 const LOOKED_AT: usize = 200;
@@ -180,22 +178,27 @@ fn drawn(random: &mut ChaCha8Rng) -> FixedStepDesign {
     }
 }
 
-/// What the springs err that a run takes for this integrator.
-fn of_a_run(of: &WellConditioned, integrator: Integrator) -> Result<ErrorsOverMotions, BenchError> {
+/// What the springs err that a run takes for this integrator, chosen on its suites.
+fn errors_of_a_run(
+    of: &WellConditioned,
+    suites: &Suites,
+    integrator: Integrator,
+) -> Result<ErrorsOverMotions, BenchError> {
     let step = SEARCH_STEP;
     let program = FixedStepProgram { name: None, integrator, step, ..FixedStepProgram::usual() };
-    let (body, effort) = (&of.body, Effort::unbounded());
-    let suites = Suites::of_seed(OF_A_RUN, body, body.restitution(), None);
-    let run = ProgramSprings::measured(body, program, &suites, true, &effort)?;
+    let run = ProgramSprings::measured(&of.body, program, suites, true, &Effort::unbounded())?;
     Ok(errors_of(of, &program, &run.springs, None))
 }
 
 fn search() -> Result<(), BenchError> {
-    println!("median NRMSE over p dt at {SEARCH_STEP} s: own springs, the best of {EVALUATIONS}");
+    println!(
+        "median NRMSE over p dt at {SEARCH_STEP} s: a run's springs, the best of {EVALUATIONS}"
+    );
     for (name, body) in bodies()? {
         let p_dt = body.p_squared().sqrt() * SEARCH_STEP;
         let chosen_on = WellConditioned::of_seed(&body, SEARCHED_ON, MOTIONS, LOOKED_AT);
         let judged_on = WellConditioned::of_seed(&body, SEED, MOTIONS, LOOKED_AT);
+        let suites = Suites::of_seed(suite::SEED, &body, body.restitution(), None);
         for (integrator_name, integrator) in &INTEGRATORS[..3] {
             let median = |of: &WellConditioned, numbers: &FixedStepDesign| {
                 errors(of, SEARCH_STEP, *integrator, numbers)
@@ -210,7 +213,7 @@ fn search() -> Result<(), BenchError> {
                     best = (found, numbers);
                 }
             }
-            let own = of_a_run(&judged_on, *integrator)?.quantile(0.5);
+            let own = errors_of_a_run(&judged_on, &suites, *integrator)?.quantile(0.5);
             let found = median(&judged_on, &best.1);
             println!(
                 "{name}, {integrator_name}: {:.1}, {:.1}; ratio {:.2}",

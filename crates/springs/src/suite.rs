@@ -36,8 +36,8 @@ const LOOKED_AT: usize = 480;
 const MORE: usize = 72;
 const MORE_LOOKED_AT: usize = 480;
 const AT_A_TIME: usize = 8;
-/// Seed of both: not one that `tune validate` takes by itself.
-const SEED: u64 = 1940;
+/// Seed of both by which a run chooses springs: not one that `tune validate` takes by itself.
+pub const SEED: u64 = 1940;
 
 /// All motions that springs of a body are judged on.
 #[derive(Clone, Debug)]
