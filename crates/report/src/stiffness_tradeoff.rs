@@ -19,7 +19,7 @@ use landing::design::springs_at_stiffness;
 use rocking::scalar::GRAVITY;
 use springs::{
     job::{Job, Paper},
-    paper_procedure::outer::{self, Benchmark, Bracket},
+    paper_procedure::outer::{self, Benchmark, Bracket, Refinement},
 };
 
 /// Omega_n of the front's points (Hz); the one that was chosen is added.
@@ -51,32 +51,36 @@ pub fn front(job: &Job, progress: &(dyn Fn(usize, usize) + Sync)) -> Vec<Tradeof
         LADDER_HZ.into_iter().filter(|hz| (hz / chosen).ln().abs() > 0.05).collect();
     ladder.push(chosen);
     ladder.sort_by(f64::total_cmp);
-    let done = AtomicUsize::new(0);
-    progress(0, ladder.len());
+    let (done, total) = (AtomicUsize::new(0), 2 * ladder.len());
+    let told = || progress(done.fetch_add(1, Ordering::Relaxed) + 1, total);
+    progress(0, total);
+    let paper = || paper_errors(job, &ladder, &told);
     // the stiffest takes longest, and is begun first
     let begun = AtomicUsize::new(0);
-    let points = parallel::map_range(0..ladder.len(), |_| {
-        let hz = ladder[ladder.len() - 1 - begun.fetch_add(1, Ordering::Relaxed)];
-        let springs = if hz == chosen {
-            Some(job.springs)
-        } else {
-            springs_at_stiffness(&job.body, TAU * hz / job.body.p_squared().sqrt())
-        };
-        let arr = || job.paper.as_ref().and_then(|paper| paper_error(job, paper, hz));
-        let ours = || springs.map(|springs| error_and_cost(job, &springs));
-        let (arr, ours) = parallel::join(arr, ours);
-        progress(done.fetch_add(1, Ordering::Relaxed) + 1, ladder.len());
-        let (landing, (foot_force_weights, deck_steps)) = ours?;
-        Some(TradeoffPoint {
-            omega_n_hz: hz,
-            chosen: hz == chosen,
-            landing,
-            arr,
-            foot_force_weights,
-            deck_steps,
+    let ours = || {
+        parallel::map_range(0..ladder.len(), |_| {
+            let hz = ladder[ladder.len() - 1 - begun.fetch_add(1, Ordering::Relaxed)];
+            let springs = if hz == chosen {
+                Some(job.springs)
+            } else {
+                springs_at_stiffness(&job.body, TAU * hz / job.body.p_squared().sqrt())
+            };
+            let found = springs.map(|springs| (hz, error_and_cost(job, &springs)));
+            told();
+            found
         })
-    });
-    let mut points: Vec<TradeoffPoint> = points.into_iter().flatten().collect();
+    };
+    let (paper, ours) = parallel::join(paper, ours);
+    let of_paper = |hz: f64| ladder.iter().zip(&paper).find(|(of, _)| **of == hz)?.1.to_owned();
+    let point = |(hz, (landing, (foot_force_weights, deck_steps))): (f64, _)| TradeoffPoint {
+        omega_n_hz: hz,
+        chosen: hz == chosen,
+        landing,
+        arr: of_paper(hz),
+        foot_force_weights,
+        deck_steps,
+    };
+    let mut points: Vec<TradeoffPoint> = ours.into_iter().flatten().map(point).collect();
     points.sort_by(|a, b| a.omega_n_hz.total_cmp(&b.omega_n_hz));
     points
 }
@@ -87,8 +91,11 @@ fn error(job: &Job, springs: &Springs<Design<f64>>) -> Option<f64> {
         .filter(|error| error.is_finite())
 }
 
-fn paper_error(job: &Job, paper: &Paper, hz: f64) -> Option<f64> {
-    let Paper { vertical, horizontal, tuned } = paper;
+/// Errors of the paper's procedure at these Omega_n (Hz).
+fn paper_errors(job: &Job, ladder: &[f64], told: &(dyn Fn() + Sync)) -> Vec<Option<f64>> {
+    let Some(Paper { vertical, horizontal, tuned }) = &job.paper else {
+        return vec![None; ladder.len()];
+    };
     let benchmark = Benchmark {
         body: job.body,
         dt: job.record.dt,
@@ -97,18 +104,25 @@ fn paper_error(job: &Job, paper: &Paper, hz: f64) -> Option<f64> {
         housner: &job.housner,
         effort: &Effort::unbounded(),
     };
-    let bracket = Bracket { max_hz: hz, max_settlement: f64::INFINITY };
     let from = job.springs.vertical.omega_n_hz;
-    let best = if hz == from {
-        tuned.best
-    } else {
-        outer::follow(&benchmark, vertical, horizontal, bracket, tuned, from)?
-    };
-    // the procedure's own history on the record
-    if job.suites.has_whole_record() {
-        return Some(best.of_u).filter(|error| error.is_finite());
-    }
-    error(job, &best.springs)
+    let others = ladder.iter().filter(|hz| **hz != from);
+    let brackets: Vec<Bracket> =
+        others.map(|&max_hz| Bracket { max_hz, max_settlement: f64::INFINITY }).collect();
+    let families = [vertical.as_slice(), horizontal.as_slice()];
+    let followed =
+        outer::follow(&benchmark, families, &brackets, (tuned, from), &Refinement::DRAWN);
+    let mut followed = followed.into_iter();
+    let best = |hz: &f64| if *hz == from { Some(tuned.best) } else { followed.next().flatten() };
+    let best: Vec<_> = ladder.iter().map(best).collect();
+    parallel::map(&best, |best| {
+        // the procedure's own history on the record
+        let found = best.and_then(|best| {
+            let of_u = Some(best.of_u).filter(|error| error.is_finite());
+            if job.suites.has_whole_record() { of_u } else { error(job, &best.springs) }
+        });
+        told();
+        found
+    })
 }
 
 /// Keeps the largest vertical force of either foot (N), and when contact changed (s).

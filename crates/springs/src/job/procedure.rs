@@ -111,15 +111,10 @@ impl<'a> Procedure<'a> {
         let found = self.at(begin, progress).ok_or(JobError::NoCandidate)?;
         let springs = |stiffness: f64| {
             let bracket = Bracket { max_hz: stiffness * p / TAU, max_settlement: f64::INFINITY };
-            let near = outer::follow(
-                self.benchmark,
-                &self.vertical,
-                &self.horizontal,
-                bracket,
-                &found,
-                begin,
-            );
-            near.map(|candidate| candidate.springs)
+            let families = [self.vertical.as_slice(), self.horizontal.as_slice()];
+            let (found, to) = ((&found, begin), &Refinement::FOLLOWING);
+            let near = outer::follow(self.benchmark, families, &[bracket], found, to);
+            near.into_iter().flatten().next().map(|candidate| candidate.springs)
         };
         let said = |rungs: usize, over: f64| {
             progress(rungs, 0, over * stiffness_search::MARGIN * asked.error)

@@ -17,7 +17,7 @@ use super::{
 };
 use dynamics::{
     effort::Effort,
-    fem::{Analysis, Change, Control, Observer, Start, View},
+    fem::{Analysis, Change, Control, Finish, Observer, Start, View, histories},
     spring::{Chain, Springs},
 };
 use rocking::{scalar::GRAVITY, structure::Body};
@@ -47,93 +47,105 @@ pub struct LandingRow {
 /// Landings of a body on these springs, which shall have the velocity restitution `restitution`;
 /// one whose run did not finish is left out.
 pub fn landings(body: &Body<f64>, chains: &Springs<Chain>, restitution: f64) -> Vec<LandingRow> {
-    let rows = parallel::map(&LEANS, |&lean| landing(body, chains, restitution, lean));
-    rows.into_iter().flatten().collect()
-}
-
-fn landing(
-    body: &Body<f64>,
-    chains: &Springs<Chain>,
-    restitution: f64,
-    lean: f64,
-) -> Option<LandingRow> {
     let control = Control::default();
-    let uncounted = (control, &Effort::unbounded());
-    let Left { kept, air: air_s, .. } =
-        Release::new(body, restitution, lean).run(body, chains, uncounted)?;
-    let effective = kept.max(0.0).sqrt();
-    let mut speeds = Speeds::default();
-    with_next(body, chains, restitution, lean, control, |case| case.observe(&mut speeds));
-    let ringing = ringing(body, chains, restitution, lean, control);
+    let left = parallel::map(&LEANS, |&lean| {
+        Release::new(body, restitution, lean).run(body, chains, (control, &Effort::unbounded()))
+    });
+    let swings = LEANS.map(|lean| Swing::new(body, restitution, lean));
+    let cases: Vec<Analysis> =
+        swings.iter().map(|swing| swing.case(body, chains, control)).collect();
+    let followed = histories(&cases, |_| SwingWatch::default());
+    // on one foot: the whole weight on k1 and k2 in series
     let weight = body.mass * GRAVITY;
-    Some(LandingRow {
-        lean,
-        restitution: effective,
-        restitution_error: effective / restitution - 1.0,
-        air_s,
-        rebound: speeds.rebound,
-        touch_downs: speeds.touch_downs,
-        ringing,
-        // on one foot: the whole weight on k1 and k2 in series
-        settlement_m: weight * (chains.vertical.k1.recip() + chains.vertical.k2.recip()),
-    })
+    let settlement_m = weight * (chains.vertical.k1.recip() + chains.vertical.k2.recip());
+    let row = |(lean, (left, (watch, _))): (f64, (Option<Left>, (SwingWatch, Finish)))| {
+        let Left { kept, air: air_s, .. } = left?;
+        let effective = kept.max(0.0).sqrt();
+        Some(LandingRow {
+            lean,
+            restitution: effective,
+            restitution_error: effective / restitution - 1.0,
+            air_s,
+            rebound: watch.rebound,
+            touch_downs: watch.touch_downs,
+            ringing: watch.ringing(weight),
+            settlement_m,
+        })
+    };
+    LEANS.into_iter().zip(left.into_iter().zip(followed)).filter_map(row).collect()
 }
 
 /// A landing and the swing after it, up to just before the next impact.
-fn with_next<T>(
-    body: &Body<f64>,
-    chains: &Springs<Chain>,
-    restitution: f64,
-    lean: f64,
-    control: Control,
-    run: impl FnOnce(&Analysis) -> T,
-) -> T {
-    let p = body.p_squared().sqrt();
-    let next = next_peak(lean, restitution);
-    let time = quarter(lean, p) + 1.9 * quarter(next, p);
-    let dt = (time / 400.0).min(0.01);
-    let quiet = vec![0.0; (time / dt) as usize + 1];
-    run(&Analysis {
-        body: *body,
-        springs: *chains,
-        start: Start::Leaning(lean * body.alpha()),
-        dt,
-        accel: &quiet,
-        vertical: &[],
-        scale: 1.0,
-        control,
-    })
+struct Swing {
+    /// The lean from which the body is released (rad).
+    start: f64,
+    dt: f64,
+    /// The ground's acceleration.
+    quiet: Vec<f64>,
 }
 
-/// Ripple of the vertical force just before the impact after the one that follows a release from
-/// `lean`, share of the weight.
-pub(super) fn ringing(
-    body: &Body<f64>,
-    chains: &Springs<Chain>,
-    restitution: f64,
-    lean: f64,
-    control: Control,
-) -> f64 {
-    let history = with_next(body, chains, restitution, lean, control, |case| case.simulate());
-    let (f, n) = (&history.forces.vertical, history.motion.len());
-    let ripple = |i: usize| {
-        let at = |i: usize| f[0][i] + f[1][i];
-        (at(i + 1) - 2.0 * at(i) + at(i - 1)).abs() / (4.0 * body.mass * GRAVITY)
-    };
-    (n.saturating_sub(12).max(1)..n.saturating_sub(1)).map(ripple).fold(0.0, f64::max)
+impl Swing {
+    fn new(body: &Body<f64>, restitution: f64, lean: f64) -> Self {
+        let p = body.p_squared().sqrt();
+        let next = next_peak(lean, restitution);
+        let time = quarter(lean, p) + 1.9 * quarter(next, p);
+        let dt = (time / 400.0).min(0.01);
+        Self { start: lean * body.alpha(), dt, quiet: vec![0.0; (time / dt) as usize + 1] }
+    }
+
+    fn case(&self, body: &Body<f64>, chains: &Springs<Chain>, control: Control) -> Analysis<'_> {
+        Analysis {
+            body: *body,
+            springs: *chains,
+            start: Start::Leaning(self.start),
+            dt: self.dt,
+            accel: &self.quiet,
+            vertical: &[],
+            scale: 1.0,
+            control,
+        }
+    }
 }
 
-/// Speeds at which the landing foot comes and goes.
+/// Speeds at which the landing foot comes and goes, and the force on the ground.
 #[derive(Default)]
-struct Speeds {
+struct SwingWatch {
+    /// Vertical force of each foot (N): the largest since the last sample.
+    largest: [f64; 2],
+    /// The sum of both at every sample.
+    vertical: Vec<f64>,
+    /// The landed foot, and the speed with which it came (m/s).
     landed: Option<(usize, f64)>,
     rebound: f64,
     touch_downs: usize,
 }
 
-impl Observer for Speeds {
-    fn sample(&mut self, _: usize, _: &View) -> ControlFlow<()> {
+impl SwingWatch {
+    /// Largest ripple of the force just before the history's end, share of the weight; `weight` in N.
+    fn ringing(&self, weight: f64) -> f64 {
+        let (n, f) = (self.vertical.len(), &self.vertical);
+        let ripple = |i: usize| (f[i + 1] - 2.0 * f[i] + f[i - 1]).abs() / (4.0 * weight);
+        (n.saturating_sub(12).max(1)..n.saturating_sub(1)).map(ripple).fold(0.0, f64::max)
+    }
+}
+
+impl Observer for SwingWatch {
+    fn sample(&mut self, index: usize, view: &View) -> ControlFlow<()> {
+        if index == 0 {
+            self.step(view);
+        }
+        let [left, right] = std::mem::take(&mut self.largest);
+        self.vertical.push(left + right);
         ControlFlow::Continue(())
+    }
+
+    fn step(&mut self, view: &View) {
+        for (foot, largest) in self.largest.iter_mut().enumerate() {
+            let force = view.vertical_force(foot);
+            if force.abs() > largest.abs() {
+                *largest = force;
+            }
+        }
     }
 
     fn event(&mut self, foot: usize, change: Change, view: &View) {

@@ -10,17 +10,17 @@
 //! candidate whose running error exceeds the best is abandoned. Batches of fixed size make the
 //! answer independent of the number of threads.
 
-use std::ops::ControlFlow;
-
 mod refinement;
+mod running_error;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use refinement::Refinement;
+pub use refinement::Refinement;
+use running_error::RunningError;
 
 use dynamics::{
     effort::Effort,
-    fem::{Analysis, Control, Finish, HistoryOutcome, Start, View},
+    fem::{Analysis, Control, Finish, HistoryOutcome, Start, histories},
     spring::{Design, Springs},
 };
 use frequency_response::inner::Fit;
@@ -119,30 +119,50 @@ impl Benchmark<'_> {
         limit: f64,
         control: Control,
     ) -> Candidate {
-        let square = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().max(f64::MIN_POSITIVE);
-        let (su, sv) = (square(&self.housner.u), square(&self.housner.v));
-        let case = self.case(springs, control);
-        let (mut sum, mut sum_u, mut settled) = (0.0, 0.0, 0.0);
-        let finish: Finish = case.observe(&mut |i: usize, view: &View| {
-            if i == 0 {
-                settled = view.z();
-            }
-            let (Some(&u), Some(&v)) = (self.housner.u.get(i), self.housner.v.get(i)) else {
-                return ControlFlow::Break(());
-            };
-            let (du, dv) = (view.x() - u, view.z() - settled - v);
-            sum += du * du / su + dv * dv / sv;
-            sum_u += du * du;
-            if sum > 2.0 * limit * limit {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        });
+        let mut error = RunningError::new(self.housner, limit);
+        let finish = self.case(springs, control).observe(&mut error);
+        self.candidate(springs, &error, &finish)
+    }
+
+    /// Many springs, each with a limit of its own, side by side: what [`Self::judge`] says of each.
+    pub(crate) fn judge_all(&self, all: &[(Springs<Design<f64>>, f64)]) -> Vec<Candidate> {
+        let mut found = self.judge_all_with(all, coarse());
+        let small: Vec<usize> = (0..all.len()).filter(|&i| found[i].error < CERTAIN).collect();
+        let again: Vec<_> = small.iter().map(|&i| all[i]).collect();
+        for (i, finer) in small.into_iter().zip(self.judge_all_with(&again, Control::search())) {
+            found[i] = finer;
+        }
+        found
+    }
+
+    fn judge_all_with(
+        &self,
+        all: &[(Springs<Design<f64>>, f64)],
+        control: Control,
+    ) -> Vec<Candidate> {
+        let cases: Vec<Analysis> =
+            all.iter().map(|(springs, _)| self.case(springs, control)).collect();
+        let followed = histories(&cases, |i| RunningError::new(self.housner, all[i].1));
+        let judged = followed.iter().zip(all);
+        judged
+            .map(|((error, finish), (springs, _))| self.candidate(springs, error, finish))
+            .collect()
+    }
+
+    /// What a history on these springs is worth.
+    fn candidate(
+        &self,
+        springs: &Springs<Design<f64>>,
+        error: &RunningError,
+        finish: &Finish,
+    ) -> Candidate {
         finish.spend(self.effort);
-        let error = (0.5 * sum).sqrt();
-        let so_far =
-            Candidate { springs: *springs, error, of_u: (sum_u / su).sqrt(), abandoned: false };
+        let so_far = Candidate {
+            springs: *springs,
+            error: error.mean(),
+            of_u: error.of_u(),
+            abandoned: false,
+        };
         match finish.outcome {
             HistoryOutcome::Completed => so_far,
             // toppled, out of work or out of balance: it has not followed to the end
@@ -151,7 +171,9 @@ impl Benchmark<'_> {
             | HistoryOutcome::Unstable { .. } => {
                 Candidate { error: f64::INFINITY, of_u: f64::INFINITY, ..so_far }
             }
-            HistoryOutcome::Stopped { .. } => Candidate { abandoned: error > limit, ..so_far },
+            HistoryOutcome::Stopped { .. } => {
+                Candidate { abandoned: so_far.error > error.limit, ..so_far }
+            }
         }
     }
 }
@@ -233,9 +255,12 @@ fn radical_inverse(mut i: usize, base: usize) -> f64 {
     x
 }
 
+/// What is judged, in this order.
+type Plan = Vec<(Pair, [f64; 2])>;
+
 /// Springs of all pairs of families, sampled over their brackets.
 pub(crate) struct Sampled {
-    plan: Vec<(Pair, [f64; 2])>,
+    plan: Plan,
     candidates: Vec<Candidate>,
 }
 
@@ -261,10 +286,12 @@ impl Sampled {
             let at = |base| if round == 0 { 1.0 } else { radical_inverse(round, base).sqrt() };
             (pairs[pair], [at(2), at(3)])
         };
-        let plan: Vec<(Pair, [f64; 2])> = (0..samples.max(pairs.len())).map(sample_of).collect();
+        let plan: Plan = (0..samples.max(pairs.len())).map(sample_of).collect();
         let total = plan.len() + refinement.evaluations();
-        let candidates = sample(benchmark, &plan, total, progress);
-        Some(Self { plan, candidates })
+        let plans = [plan];
+        let candidates = sample(benchmark, &plans, &|done, best| progress(done, total, best));
+        let [plan] = plans;
+        Some(Self { plan, candidates: candidates.into_iter().flatten().collect() })
     }
 
     /// The best few refined, one evaluation after the other; the best of all.
@@ -280,55 +307,79 @@ impl Sampled {
     }
 }
 
-/// Follow springs found for another stiffness (`from_hz`) to this bracket's: from the best of them,
-/// scaled, and of all pairs of families at their stiffest.
+/// Follow springs found for another stiffness (`from_hz`) to these brackets': from the best of
+/// them, scaled, and of all pairs of families at their stiffest. In the order of the brackets; none
+/// where no pair can be stiff enough.
 pub fn follow(
     benchmark: &Benchmark,
-    vertical: &[Fit],
-    horizontal: &[Fit],
-    bracket: Bracket,
-    found: &OmegaSearch,
-    from_hz: f64,
-) -> Option<Candidate> {
+    families: [&[Fit]; 2],
+    brackets: &[Bracket],
+    (found, from_hz): (&OmegaSearch, f64),
+    refinement: &Refinement,
+) -> Vec<Option<Candidate>> {
     let mut near: Vec<&Candidate> =
         found.candidates.iter().filter(|c| !c.abandoned && c.error.is_finite()).collect();
     near.sort_by(|a, b| a.error.total_cmp(&b.error));
-    let scale = |c: &&Candidate| {
-        let mut springs = c.springs;
-        springs.vertical.omega_n_hz *= bracket.max_hz / from_hz;
-        springs.horizontal.omega_n_hz *= bracket.max_hz / from_hz;
-        Pair::of(&springs, bracket)
+    let plan_of = |bracket: &Bracket| {
+        let scale = |c: &&Candidate| {
+            let mut springs = c.springs;
+            springs.vertical.omega_n_hz *= bracket.max_hz / from_hz;
+            springs.horizontal.omega_n_hz *= bracket.max_hz / from_hz;
+            Pair::of(&springs, *bracket)
+        };
+        let stiff = |c: &&&Candidate| bracket.allows(c.springs.vertical.k());
+        let mut plan: Plan = near.iter().filter(stiff).take(FOLLOWED).map(scale).collect();
+        let [vertical, horizontal] = families;
+        plan.extend(pairs(vertical, horizontal, *bracket).into_iter().map(|pair| (pair, [1.0; 2])));
+        plan
     };
-    let stiff = |c: &&&Candidate| bracket.allows(c.springs.vertical.k());
-    let mut plan: Vec<(Pair, [f64; 2])> =
-        near.iter().filter(stiff).take(FOLLOWED).map(scale).collect();
-    plan.extend(pairs(vertical, horizontal, bracket).into_iter().map(|pair| (pair, [1.0; 2])));
-    let candidates = sample(benchmark, &plan, plan.len(), &|_, _, _| {});
-    Refinement::FOLLOWING.best_of(benchmark, &plan, candidates).map(|tuned| tuned.best)
+    let plans: Vec<Plan> = brackets.iter().map(plan_of).collect();
+    let sampled = sample(benchmark, &plans, &|_, _| {});
+    let both: Vec<(Plan, Vec<Candidate>)> = plans.into_iter().zip(sampled).collect();
+    parallel::map(&both, |(plan, candidates)| {
+        let tuned = refinement.best_of(benchmark, plan, candidates.clone());
+        tuned.map(|tuned| tuned.best)
+    })
 }
 
-/// Evaluate a plan, batch by batch.
+/// Evaluate plans, batch by batch, each with a threshold of its own; `progress` is called with how
+/// many are done and the least error so far.
 fn sample(
     benchmark: &Benchmark,
-    plan: &[(Pair, [f64; 2])],
-    total: usize,
-    progress: &(dyn Fn(usize, usize, f64) + Sync),
-) -> Vec<Candidate> {
-    let mut candidates: Vec<Candidate> = Vec::with_capacity(total);
-    let mut best = f64::INFINITY;
-    let (mut rest, mut size) = (plan, FIRST_BATCH);
-    // the first batches are judged whatever they cost
-    while !rest.is_empty() && (candidates.len() < BATCH || !benchmark.effort.stops()) {
-        let (batch, after) = rest.split_at(size.min(rest.len()));
-        (rest, size) = (after, (2 * size).min(BATCH));
-        let judge = |(pair, x): &(Pair, [f64; 2])| benchmark.judge(&pair.springs(*x), best);
-        candidates.extend(parallel::map(batch, judge));
-        best = candidates
-            .iter()
-            .filter(|c| !c.abandoned)
-            .map(|c| c.error)
-            .fold(f64::INFINITY, f64::min);
-        progress(candidates.len(), total, best);
+    plans: &[Plan],
+    progress: &(dyn Fn(usize, f64) + Sync),
+) -> Vec<Vec<Candidate>> {
+    let mut candidates: Vec<Vec<Candidate>> = plans.iter().map(|_| Vec::new()).collect();
+    let mut best = vec![f64::INFINITY; plans.len()];
+    let mut size = FIRST_BATCH;
+    loop {
+        let done = |i: usize| candidates[i].len();
+        let stops = benchmark.effort.stops();
+        // the first batches are judged whatever they cost
+        let next: Vec<(usize, std::ops::Range<usize>)> = (0..plans.len())
+            .filter(|&i| done(i) < plans[i].len() && (done(i) < BATCH || !stops))
+            .map(|i| (i, done(i)..plans[i].len().min(done(i) + size)))
+            .collect();
+        if next.is_empty() {
+            return candidates;
+        }
+        let springs = |i: usize, at: usize| {
+            let (pair, x) = &plans[i][at];
+            (pair.springs(*x), best[i])
+        };
+        let batch: Vec<_> =
+            next.iter().flat_map(|(i, at)| at.clone().map(|at| springs(*i, at))).collect();
+        let mut judged = benchmark.judge_all(&batch).into_iter();
+        for (i, at) in next {
+            candidates[i].extend(judged.by_ref().take(at.len()));
+            best[i] = candidates[i]
+                .iter()
+                .filter(|c| !c.abandoned)
+                .map(|c| c.error)
+                .fold(f64::INFINITY, f64::min);
+        }
+        size = (2 * size).min(BATCH);
+        let total = candidates.iter().map(Vec::len).sum();
+        progress(total, best.iter().copied().fold(f64::INFINITY, f64::min));
     }
-    candidates
 }

@@ -11,7 +11,7 @@ use dynamics::{effort::Effort, fem::Control};
 
 /// How far samples are refined.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Refinement {
+pub struct Refinement {
     /// How many of them.
     samples: usize,
     /// Iterations of each.
@@ -31,7 +31,9 @@ impl Refinement {
     /// that is compared.
     pub(crate) const COMPARED: Self = Self { samples: 1, iterations: 24, spread: 1e-3 };
     /// Of springs that follow those of another stiffness.
-    pub(super) const FOLLOWING: Self = Self { samples: 1, iterations: 10, spread: 0.0 };
+    pub(crate) const FOLLOWING: Self = Self { samples: 1, iterations: 10, spread: 0.0 };
+    /// The same to two digits of the error, for a figure.
+    pub const DRAWN: Self = Self { spread: 1e-2, ..Self::FOLLOWING };
 
     /// Evaluations that are planned.
     pub(super) fn evaluations(&self) -> usize {
