@@ -13,7 +13,8 @@ code 1 if a deck stops, or a well-conditioned history is off: with the deck's ow
 (springs of `tune run`) 0.003 from Housner's, with other steps by more than 0.01 from ours.
 """
 
-import argparse, csv, json, math, pathlib, re, statistics, subprocess, sys, tempfile, time
+import argparse, csv, json, math, os, pathlib, re, statistics, subprocess, sys, tempfile, time
+from concurrent import futures
 
 #         kind, height of the centre of mass, width [m], mass [kg]
 BODIES = {
@@ -154,43 +155,55 @@ def main():
     )
     print("|---|---|---|---|---|---|---|---|---|---|---|---|")
     wrong, taken, times, every = 0, [], [], []
-    for name in options.only.split(","):
-        with tempfile.TemporaryDirectory() as folder:
-            folder = pathlib.Path(folder)
-            parameters, cap = folder / "parameters.json", ["--max-hz", options.max_hz] if options.max_hz else []
-            springs = family(BODIES[name], options.hz) if options.hz else tuned(options.tune, BODIES[name], folder, cap)
+    with tempfile.TemporaryDirectory() as folder, futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        rows = []
+        for name in options.only.split(","):
+            parameters = pathlib.Path(folder) / name / "parameters.json"
+            parameters.parent.mkdir()
+            cap = ["--max-hz", options.max_hz] if options.max_hz else []
+            springs = (
+                family(BODIES[name], options.hz)
+                if options.hz
+                else tuned(options.tune, BODIES[name], parameters.parent, cap)
+            )
             parameters.write_text(json.dumps(springs))
             for scale in map(float, options.scales.split(",")):
                 for steps in map(int, options.steps.split(",")):
-                    found, peak, moved, ill = one(options.tune, parameters, scale, steps, options, folder)
-                    start = f"| {name} | {scale:g} | {moved:.3g} %{' *' if ill else ''} | {steps or 'own'} |"
-                    if found is None:
-                        print(start, "stopped:", *peak, "|", flush=True)
-                        wrong += 1
-                        continue
-                    n, repeated, late, seconds, ours, housner, between, parted = found
-                    rocks = peak > 0.0
-                    bad = (
-                        rocks
-                        and not ill
-                        and (
-                            ours > (0.01 if steps else 0.001)
-                            or not (steps or options.hz or options.max_hz)
-                            and housner > 0.003
-                        )
+                    own = parameters.parent / f"{scale} {steps}"
+                    own.mkdir()
+                    rows.append(
+                        (name, scale, steps, pool.submit(one, options.tune, parameters, scale, steps, options, own))
                     )
-                    wrong += bad
-                    if not steps:
-                        every.append(n)
-                    if rocks and not steps:
-                        taken.append(n)
-                        times.append(seconds)
-                    print(
-                        start,
-                        f"{n} | {repeated} | {late} | {seconds:.1f} | {ours:.1e} | {housner:.1e} "
-                        f"| {between:.1e} | {parted} |" + (" WRONG" if bad else ""),
-                        flush=True,
-                    )
+        for name, scale, steps, row in rows:
+            found, peak, moved, ill = row.result()
+            start = f"| {name} | {scale:g} | {moved:.3g} %{' *' if ill else ''} | {steps or 'own'} |"
+            if found is None:
+                print(start, "stopped:", *peak, "|", flush=True)
+                wrong += 1
+                continue
+            n, repeated, late, seconds, ours, housner, between, parted = found
+            rocks = peak > 0.0
+            bad = (
+                rocks
+                and not ill
+                and (
+                    ours > (0.01 if steps else 0.001)
+                    or not (steps or options.hz or options.max_hz)
+                    and housner > 0.003
+                )
+            )
+            wrong += bad
+            if not steps:
+                every.append(n)
+            if rocks and not steps:
+                taken.append(n)
+                times.append(seconds)
+            print(
+                start,
+                f"{n} | {repeated} | {late} | {seconds:.1f} | {ours:.1e} | {housner:.1e} "
+                f"| {between:.1e} | {parted} |" + (" WRONG" if bad else ""),
+                flush=True,
+            )
     if taken:
         print(
             f"\nown steps, median of all: {statistics.median(every):g}; where it rocks: {statistics.median(taken):g} "

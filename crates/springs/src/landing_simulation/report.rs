@@ -121,7 +121,7 @@ struct SwingWatch {
 }
 
 impl SwingWatch {
-    /// Largest ripple of the force just before the history's end, share of the weight; `weight` in N.
+    /// Largest ripple of the force just before the end, share of the weight; `weight` in N.
     fn ringing(&self, weight: f64) -> f64 {
         let (n, f) = (self.vertical.len(), &self.vertical);
         let ripple = |i: usize| (f[i + 1] - 2.0 * f[i] + f[i - 1]).abs() / (4.0 * weight);

@@ -256,11 +256,11 @@ fn radical_inverse(mut i: usize, base: usize) -> f64 {
 }
 
 /// What is judged, in this order.
-type Plan = Vec<(Pair, [f64; 2])>;
+type SamplePlan = Vec<(Pair, [f64; 2])>;
 
 /// Springs of all pairs of families, sampled over their brackets.
 pub(crate) struct Sampled {
-    plan: Plan,
+    plan: SamplePlan,
     candidates: Vec<Candidate>,
 }
 
@@ -286,7 +286,7 @@ impl Sampled {
             let at = |base| if round == 0 { 1.0 } else { radical_inverse(round, base).sqrt() };
             (pairs[pair], [at(2), at(3)])
         };
-        let plan: Plan = (0..samples.max(pairs.len())).map(sample_of).collect();
+        let plan: SamplePlan = (0..samples.max(pairs.len())).map(sample_of).collect();
         let total = plan.len() + refinement.evaluations();
         let plans = [plan];
         let candidates = sample(benchmark, &plans, &|done, best| progress(done, total, best));
@@ -328,14 +328,14 @@ pub fn follow(
             Pair::of(&springs, *bracket)
         };
         let stiff = |c: &&&Candidate| bracket.allows(c.springs.vertical.k());
-        let mut plan: Plan = near.iter().filter(stiff).take(FOLLOWED).map(scale).collect();
+        let mut plan: SamplePlan = near.iter().filter(stiff).take(FOLLOWED).map(scale).collect();
         let [vertical, horizontal] = families;
         plan.extend(pairs(vertical, horizontal, *bracket).into_iter().map(|pair| (pair, [1.0; 2])));
         plan
     };
-    let plans: Vec<Plan> = brackets.iter().map(plan_of).collect();
+    let plans: Vec<SamplePlan> = brackets.iter().map(plan_of).collect();
     let sampled = sample(benchmark, &plans, &|_, _| {});
-    let both: Vec<(Plan, Vec<Candidate>)> = plans.into_iter().zip(sampled).collect();
+    let both: Vec<(SamplePlan, Vec<Candidate>)> = plans.into_iter().zip(sampled).collect();
     parallel::map(&both, |(plan, candidates)| {
         let tuned = refinement.best_of(benchmark, plan, candidates.clone());
         tuned.map(|tuned| tuned.best)
@@ -346,7 +346,7 @@ pub fn follow(
 /// many are done and the least error so far.
 fn sample(
     benchmark: &Benchmark,
-    plans: &[Plan],
+    plans: &[SamplePlan],
     progress: &(dyn Fn(usize, f64) + Sync),
 ) -> Vec<Vec<Candidate>> {
     let mut candidates: Vec<Vec<Candidate>> = plans.iter().map(|_| Vec::new()).collect();
