@@ -64,3 +64,24 @@ fn small_errors_are_measured_again_with_fine_steps() {
     assert!(found.error < CERTAIN, "{}", found.error);
     assert_eq!(found, benchmark.judge_with(&springs, f64::INFINITY, Control::search()));
 }
+
+/// Side by side, whether abandoned or measured again, they are judged as alone, to the last bit.
+#[test]
+fn springs_are_judged_side_by_side_as_alone() {
+    let record = Record::el_centro();
+    let body = Structure::paper().body::<f64>();
+    let accel = &record.accel[..1000];
+    let housner = solve(&body, record.dt, accel, &RockingOptions::default()).motion(&body);
+    let effort = Effort::unbounded();
+    let benchmark =
+        Benchmark { body, dt: record.dt, accel, vertical: &[], housner: &housner, effort: &effort };
+    let mut all: Vec<_> = candidates().into_iter().map(|springs| (springs, 0.01)).collect();
+    let stiff = landing::design::springs_at_stiffness(&body, 1e5).unwrap();
+    all.push((stiff, f64::INFINITY));
+    let found = benchmark.judge_all(&all);
+    for (found, (springs, limit)) in found.iter().zip(&all) {
+        assert_eq!(*found, benchmark.judge(springs, *limit));
+    }
+    assert!(found.iter().any(|found| found.abandoned), "{found:?}");
+    assert!(found.iter().any(|found| found.error < CERTAIN), "{found:?}");
+}
