@@ -96,6 +96,27 @@ fn record_scale_and_duration_are_remembered_until_told_otherwise() {
     assert!(other.contains("scale 1, all 12 s: 1201 samples"), "{other}");
 }
 
+/// A sheet comes with the ground motion that it names; a sheet of another motion is not written
+/// beside it.
+#[test]
+fn a_sheet_brings_its_ground_motion_and_leaves_that_of_another() {
+    let dir = folder();
+    tune(dir.path(), &[&RUN[..], &["out"]].concat());
+    let sheet = ["export", "--parameters", "out/parameters.json", "--format", "sap2000-sheet"];
+    tune(dir.path(), &[&sheet[..], &["--out", "sheets/"]].concat());
+    let read = |path: &str| fs::read(dir.path().join(path)).unwrap();
+    for file in ["sap2000_by_hand.txt", "ground_motion.txt"] {
+        assert_eq!(read(&format!("sheets/{file}")), read(&format!("out/decks/{file}")), "{file}");
+    }
+    let other = [&sheet[..], &["--scale", "0.5", "--out", "sheets/half.txt"]].concat();
+    let output =
+        Command::cargo_bin("tune").unwrap().current_dir(&dir).args(other).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("is not the ground motion of this sheet"), "{output:?}");
+    assert!(!dir.path().join("sheets/half.txt").exists());
+    assert_eq!(read("sheets/ground_motion.txt"), read("out/decks/ground_motion.txt"));
+}
+
 #[test]
 fn a_scale_on_the_command_line_replaces_the_cases() {
     let dir = folder();

@@ -11,11 +11,12 @@ use decks::{
 };
 use frames::fem::{ElasticAnalysis, ElasticStart};
 use parameters::{Parameters, elastic::ElasticParameters, program::ProgramRow};
+use report::screen::{ETABS_SHEET, SHEET};
 use results::FiledFinding;
 use run_folder::{
     elastic::{deck, stepped_deck as stepped_deck_of},
     folder::of_one_run,
-    models::DECKS,
+    models::{DECKS, motion_files},
     place::file_in,
     place::write_file,
 };
@@ -46,27 +47,78 @@ pub struct ExportOptions {
 }
 
 pub fn run(o: &ExportOptions) -> Result<(), CommandError> {
-    let usual =
-        DECKS.iter().find(|(_, format)| *format == o.format).map_or("deck", |(name, _)| name);
-    let out = file_in(&o.out, usual)?;
+    let out = |etabs: bool| file_in(&o.out, usual_name(o.format, etabs));
     check_accuracy(o.accuracy)?;
     of_one_run(&o.parameters)?;
-    let (deck, line) = match ElasticParameters::read(&o.parameters)? {
-        Some(parameters) => elastic(o, &parameters)?,
+    match ElasticParameters::read(&o.parameters)? {
+        Some(parameters) => {
+            let out = out(parameters.program.as_ref().is_some_and(ProgramRow::is_etabs))?;
+            elastic(o, &parameters)?.write(o.format, &out)
+        }
         None => {
-            let (parameters, record, line) = read(&o.parameters, &o.record)?;
-            match stepping(o, parameters.program.as_ref()) {
-                Stepping::Events => (deck_of(&parameters, &record, o.format, o.accuracy)?, line),
-                stepping => {
-                    let until = predictable_to(o, &parameters.findings);
-                    told(stepped_deck(&parameters, &record, o.format, stepping, until)?, line)
-                }
-            }
+            let parameters = Parameters::read(&o.parameters)?;
+            let out = out(parameters.program.as_ref().is_some_and(ProgramRow::is_etabs))?;
+            rigid(o, parameters)?.write(o.format, &out)
+        }
+    }
+}
+
+/// The name that a deck has in the folder of a run.
+fn usual_name(format: DeckFormat, etabs: bool) -> &'static str {
+    let deck = DECKS.iter().find(|(_, of)| *of == format).map(|(name, _)| *name);
+    deck.unwrap_or(if etabs { ETABS_SHEET } else { SHEET })
+}
+
+/// A deck, and what goes with it.
+struct ExportedDeck {
+    text: String,
+    /// The ground motion in it.
+    record: Record,
+    /// What to say of it on stderr.
+    line: String,
+}
+
+impl ExportedDeck {
+    /// Write it, and beside a sheet the ground motion that it names.
+    fn write(&self, format: DeckFormat, out: &Path) -> Result<(), CommandError> {
+        let beside = match format {
+            DeckFormat::Sap2000Sheet => motion_files(&self.record),
+            _ => Vec::new(),
+        };
+        let beside: Vec<(PathBuf, String)> =
+            beside.into_iter().map(|(name, text)| (out.with_file_name(name), text)).collect();
+        let differs = |(path, text): &(PathBuf, String)| {
+            path == out || std::fs::read(path).is_ok_and(|there| there != text.as_bytes())
+        };
+        if let Some((path, _)) = beside.iter().find(|file| differs(file)) {
+            let path = terminal::shown(path);
+            return Err(CommandError::Result(format!(
+                "{path} is there and is not the ground motion of this sheet, which names a file so; \
+                 export into another folder"
+            )));
+        }
+        write_file(out, self.text.as_bytes())?;
+        let mut written = terminal::shown(out).to_string();
+        for (path, text) in &beside {
+            write_file(path, text.as_bytes())?;
+            written += &format!(", {}", terminal::shown(path));
+        }
+        terminal::stderr(format_args!("{}\nwritten to {written}", self.line));
+        Ok(())
+    }
+}
+
+/// The deck of a rigid body.
+fn rigid(o: &ExportOptions, parameters: Parameters) -> Result<ExportedDeck, CommandError> {
+    let (parameters, record, line) = with_record(parameters, &o.parameters, &o.record)?;
+    let (text, line) = match stepping(o, parameters.program.as_ref()) {
+        Stepping::Events => (deck_of(&parameters, &record, o.format, o.accuracy)?, line),
+        stepping => {
+            let until = predictable_to(o, &parameters.findings);
+            told(stepped_deck(&parameters, &record, o.format, stepping, until)?, line)
         }
     };
-    write_file(&out, deck.as_bytes())?;
-    terminal::stderr(format_args!("{line}\nwritten to {}", terminal::shown(&out)));
-    Ok(())
+    Ok(ExportedDeck { text, record, line })
 }
 
 /// How the deck steps, there being springs for this program.
@@ -88,12 +140,11 @@ fn told(deck: SteppedDeck, record: String) -> (String, String) {
     (text, line.map_or(record.clone(), |line| format!("{record}\n{line}")))
 }
 
-/// The deck of an elastic structure, with our own history to check itself against, and a line that
-/// says on which record.
+/// The deck of an elastic structure, with our own history to check itself against.
 fn elastic(
     o: &ExportOptions,
     parameters: &ElasticParameters,
-) -> Result<(String, String), CommandError> {
+) -> Result<ExportedDeck, CommandError> {
     let excitation = o.record.excitation(|| parameters.excitation(&o.parameters))?;
     let record = excitation.used()?;
     let assembled = parameters.assembled().map_err(|e| CommandError::Result(e.to_string()))?;
@@ -103,7 +154,8 @@ fn elastic(
             let program = CornerProgram::new(&assembled, program, stepping)?;
             let until = predictable_to(o, &parameters.findings);
             let deck = stepped_deck_of(&assembled, &program, &record, o.format, until)?;
-            return Ok(told(deck, excitation.line()));
+            let (text, line) = told(deck, excitation.line());
+            return Ok(ExportedDeck { text, record, line });
         }
         (_, None) => return Err(ExportError::NoProgram.into()),
     }
@@ -120,7 +172,7 @@ fn elastic(
     };
     let history = case.simulate().map_err(|e| CommandError::Result(e.to_string()))?;
     let text = deck(&assembled, &springs, &record, &history, (o.format, o.accuracy))?;
-    Ok((text, excitation.line()))
+    Ok(ExportedDeck { text, record, line: excitation.line() })
 }
 
 /// Between what double precision and what a landing allow.
@@ -138,7 +190,15 @@ pub(super) fn read(
     file: &Path,
     options: &RecordOptions,
 ) -> Result<(Parameters, Record, String), CommandError> {
-    let mut parameters = Parameters::read(file)?;
+    with_record(Parameters::read(file)?, file, options)
+}
+
+/// The same of parameters that were read from a file.
+fn with_record(
+    mut parameters: Parameters,
+    file: &Path,
+    options: &RecordOptions,
+) -> Result<(Parameters, Record, String), CommandError> {
     parameters.structure = with_inertia(&parameters.structure);
     let excitation = options.excitation(|| parameters.excitation(file))?;
     Ok((parameters, excitation.used()?, excitation.line()))

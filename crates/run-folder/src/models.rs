@@ -61,13 +61,18 @@ pub(crate) fn sheet<U>(
         gathered(&[(name, DeckFormat::Sap2000Sheet)], |_, format| Ok((deck(format)?.text, None)))?;
     let mut files = texts.files;
     if !files.is_empty() {
-        let motion =
-            |name: &str, all: &[f64]| (format!("decks/{name}"), sap_function(record.dt, all));
-        files.push(motion("ground_motion.txt", &record.accel));
-        files.extend(record.vertical.as_ref().map(|_| motion("ground_motion_up.txt", record.up())));
+        let beside = motion_files(record).into_iter();
+        files.extend(beside.map(|(name, text)| (format!("decks/{name}"), text)));
     }
     // of what the tables have not they tell themselves
     Ok(RunTexts { files, left_out: Vec::new() })
+}
+
+/// The ground motion that a sheet names: files beside it, name and text.
+pub fn motion_files(record: &Record) -> Vec<(&'static str, String)> {
+    let across = ("ground_motion.txt", sap_function(record.dt, &record.accel));
+    let up = || ("ground_motion_up.txt", sap_function(record.dt, record.up()));
+    std::iter::once(across).chain(record.vertical.as_ref().map(|_| up())).collect()
 }
 
 fn gathered(
