@@ -93,8 +93,8 @@ impl ExportedDeck {
         if let Some((path, _)) = beside.iter().find(|file| differs(file)) {
             let path = terminal::shown(path);
             return Err(CommandError::Result(format!(
-                "{path} is there and is not the ground motion of this sheet, which names a file so; \
-                 export into another folder"
+                "{path} is there and is not the ground motion of this sheet, which names a file \
+                 so; export into another folder"
             )));
         }
         write_file(out, self.text.as_bytes())?;
@@ -111,7 +111,7 @@ impl ExportedDeck {
 /// The deck of a rigid body.
 fn rigid(o: &ExportOptions, parameters: Parameters) -> Result<ExportedDeck, CommandError> {
     let (parameters, record, line) = with_record(parameters, &o.parameters, &o.record)?;
-    let (text, line) = match stepping(o, parameters.program.as_ref()) {
+    let (text, line) = match stepping(o, parameters.program.as_ref())? {
         Stepping::Events => (deck_of(&parameters, &record, o.format, o.accuracy)?, line),
         stepping => {
             let until = predictable_to(o, &parameters.findings);
@@ -122,9 +122,28 @@ fn rigid(o: &ExportOptions, parameters: Parameters) -> Result<ExportedDeck, Comm
 }
 
 /// How the deck steps, there being springs for this program.
-fn stepping<U>(o: &ExportOptions, program: Option<&ProgramRow<U>>) -> Stepping {
-    let csi = o.format.is_sap2000() && program.is_some_and(ProgramRow::is_csi);
-    o.stepping.unwrap_or(if csi { Stepping::Even } else { Stepping::Events })
+///
+/// # Errors
+/// SAP2000's format of springs for another program, which no option asks for.
+fn stepping<U>(
+    o: &ExportOptions,
+    program: Option<&ProgramRow<U>>,
+) -> Result<Stepping, ExportError> {
+    let stepping = match (o.stepping, program) {
+        (Some(stepping), _) => stepping,
+        (None, Some(program)) if o.format.is_sap2000() => match program.is_csi() {
+            true => Stepping::Even,
+            false => {
+                let integrator = program.integrator.clone();
+                return Err(ExportError::AnotherProgram { integrator });
+            }
+        },
+        _ => Stepping::Events,
+    };
+    match (o.format, stepping) {
+        (DeckFormat::Sap2000Sheet, Stepping::Events) => Err(ExportError::EventsInSheet),
+        _ => Ok(stepping),
+    }
 }
 
 /// Up to when the run found that the motion can be predicted, if not to its end (s): of its own
@@ -148,7 +167,7 @@ fn elastic(
     let excitation = o.record.excitation(|| parameters.excitation(&o.parameters))?;
     let record = excitation.used()?;
     let assembled = parameters.assembled().map_err(|e| CommandError::Result(e.to_string()))?;
-    match (stepping(o, parameters.program.as_ref()), &parameters.program) {
+    match (stepping(o, parameters.program.as_ref())?, &parameters.program) {
         (Stepping::Events, _) => {}
         (stepping, Some(program)) => {
             let program = CornerProgram::new(&assembled, program, stepping)?;

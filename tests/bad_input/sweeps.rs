@@ -117,6 +117,8 @@ fn a_motion_that_no_other_can_be_like_is_refused() {
     let with = |records: &str| format!("{HEAD}{BLOCK}[records]\n{records}{LEVELS}");
     sweep(&with("like = \"none.csv\"\n"), &["none.csv"]);
     sweep(&with("el_centro = true\nlike_count = 5\n"), &["line 10", "like_count without like"]);
+    let made = with("synthetic = 3\nvertical = \"auto\"\n");
+    sweep(&made, &["line 10", "those of this sweep are horizontal: take it out"]);
     sweep(&with("like = \"sweep.toml\"\n"), &["sweep.toml"]);
     let files = |count: &str, motion: &str| {
         let text = with(&format!("like = \"floor.csv\"\n{count}dt_s = 0.01\nunits = \"g\"\n"));

@@ -80,10 +80,20 @@ impl ProgramSection {
             .map_err(|(v, remedy)| ("step_s", v, remedy.into()))?;
         let integrator = match &self.integrator {
             Some(given) => {
-                integrator(given).map_err(|remedy| ("integrator", quoted(given), remedy))?
+                read_integrator(given).map_err(|remedy| ("integrator", quoted(given), remedy))?
             }
             None => name.unwrap_or(ProgramName::Sap2000).integrator(),
         };
+        if let (Some(given), Some(name)) = (&self.integrator, name)
+            && !name.has(integrator)
+        {
+            let remedy = format!(
+                "{} takes {}: give one of these, or --step and --integrator without a program",
+                name.words(),
+                name.integrators()
+            );
+            return Err(("integrator", quoted(given), remedy));
+        }
         let substeps = self.substeps.unwrap_or(SUBSTEPS);
         let (least, most) = SUBSTEP_LIMITS;
         if !(least..=most).contains(&substeps) {
@@ -121,7 +131,7 @@ fn program_name(name: &str) -> Option<ProgramName> {
 }
 
 /// An integrator by its name, `hht` alone with the most damping; else what to give.
-fn integrator(given: &str) -> Result<Integrator, String> {
+fn read_integrator(given: &str) -> Result<Integrator, String> {
     if given.eq_ignore_ascii_case("hht") {
         return Ok(Integrator::HHT_MOST);
     }
@@ -173,6 +183,14 @@ mod tests {
             ("step_s = 0.0", "program.step_s is 0.0; give a time step between"),
             ("integrator = 'wilson'", "program.integrator is \"wilson\"; give newmark:GAMMA:BETA"),
             ("integrator = 'hht:0.5'", "program.integrator is \"hht:0.5\"; "),
+            (
+                "for = 'sap2000'\nintegrator = 'trbdf2'",
+                "program.integrator is \"trbdf2\"; SAP2000 takes hht:ALPHA or newmark:GAMMA:BETA",
+            ),
+            (
+                "for = 'opensees-even'\nintegrator = 'generalized-alpha:0'",
+                "OpenSees with even steps takes backward-euler, trbdf2",
+            ),
             ("substeps = 0", "program.substeps is 0; give a number from 1"),
         ] {
             let error = read(&format!("[program]\n{wrong}\n")).unwrap_err().to_string();

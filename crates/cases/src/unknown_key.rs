@@ -118,7 +118,7 @@ impl UnknownKey {
         let like = known.iter().filter(|known| is_like(&key, known));
         let like = like
             .min_by_key(|known| (!same_words(&key, known), !is_end(&key, known), distance(known)));
-        let near = mass.or(like).cloned();
+        let near = weight_of(&key, &known).or(mass).or(like).cloned();
         Some(Self { key, near, known })
     }
 
@@ -151,6 +151,12 @@ impl UnknownKey {
             None => format!("known are {}", self.known.join(", ")),
         }
     }
+}
+
+/// The weight that is meant by a mass in newtons: weight_kn, of mass_kN.
+fn weight_of<'a>(key: &str, known: &'a [String]) -> Option<&'a String> {
+    let unit = key.to_lowercase().strip_prefix("mass_")?.to_owned();
+    known.iter().find(|known| known.strip_prefix("weight_") == Some(&*unit))
 }
 
 /// Kinds of elastic structures that have a key.
@@ -207,6 +213,9 @@ mod tests {
         ] {
             assert_eq!(advice(key), format!("did you mean \"{near}\"?"), "{key}");
         }
+        let rigid = "unknown field `mass_kN`, expected one of `mass_kg`, `weight_kn`, `width_m`";
+        let weight = UnknownKey::of(rigid).unwrap().advice();
+        assert_eq!(weight, "did you mean \"weight_kn\"?");
         let mass = "it is a key of kind = \"pier\" or \"aframe\"; did you mean \"column_mass_kg\"?";
         assert_eq!(advice("mass_kg"), mass);
         let known = "known are height_m, width_m, column_mass_kg, ei_nm2, material";

@@ -9,7 +9,7 @@ use strong_motion::Record;
 
 /// Largest and least displacement of the centre of mass by Housner's equation (m), over so many
 /// samples, of the structure as it was given. None where the parameters are of another record, or
-/// Housner's body overturns or leaves the ground.
+/// Housner's body overturns or leaves the ground within these.
 pub(crate) fn housner_range(
     given: &Structure,
     parameters: &Parameters,
@@ -22,7 +22,8 @@ pub(crate) fn housner_range(
     let vertical = record.vertical_accel();
     let options = RockingOptions { restitution, vertical, ..Default::default() };
     let rocking = housner::solve(&body, record.dt, &record.accel, &options);
-    if rocking.overturned().is_some() || rocking.left_ground().is_some() {
+    let ends = rocking.overturned().or(rocking.left_ground());
+    if ends.is_some_and(|time| time < samples.saturating_sub(1) as f64 * record.dt) {
         return None;
     }
     let u = rocking.motion(&body).u;

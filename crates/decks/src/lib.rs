@@ -216,6 +216,17 @@ pub enum ExportError {
     )]
     NoProgram,
     #[error(
+        "export: the springs of this run are for steps of {}, not for SAP2000; give tune run \
+            --for sap2000 and --step",
+        printable(integrator)
+    )]
+    AnotherProgram { integrator: String },
+    #[error(
+        "export: the sheet is for steps of one size, on springs for these; give --stepping even, \
+            and tune run --for sap2000 and --step"
+    )]
+    EventsInSheet,
+    #[error(
         "export: the springs for steps of one size are not made for a {name}; leave it out, or \
             --stepping events"
     )]

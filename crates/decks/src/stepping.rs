@@ -1,6 +1,7 @@
 //! Decks for programs with steps of one size: their springs, their settings, and what the emulation
 //! of such a program finds of them.
 
+use files::message::significant;
 use fixed_steps::{
     FixedStepAnalysis, FixedStepBody, FixedStepHistory, FixedStepOutcome, FixedStepSprings, GaveUp,
     Integrator, StepSettings,
@@ -9,7 +10,7 @@ use fixed_steps::{
 };
 use parameters::{
     Parameters,
-    program::{ProgramRow, ProgramTest},
+    program::{ProgramErrors, ProgramRow, ProgramTest},
 };
 use results::NotToBeUsed;
 use rocking::{motion::Motion, scalar::GRAVITY, structure::Structure};
@@ -77,6 +78,9 @@ pub(crate) struct EvenSteps {
     pub adds_inertia: bool,
     /// Whether the springs are of no use in such steps, and why.
     pub not_to_be_used: Option<NotToBeUsed>,
+    /// What they were measured to err on the motions that they are judged on, and on
+    /// earthquake-like ones.
+    pub errors: [Option<ProgramErrors>; 2],
     /// Whether the program is ETABS.
     pub etabs: bool,
 }
@@ -101,6 +105,7 @@ impl EvenSteps {
             unbalance,
             adds_inertia: false,
             not_to_be_used: row.not_to_be_used(),
+            errors: [row.expected.synthetic, row.expected.earthquakes],
             etabs: row.is_etabs(),
         })
     }
@@ -121,6 +126,24 @@ impl EvenSteps {
         settings
             .with_touches(self.touches)
             .with_substeps(1.0 / (self.substeps * self.touches) as f64)
+    }
+
+    /// What such steps err in the largest displacement, measured by the run; nothing where it
+    /// measured none.
+    pub(crate) fn errors(&self) -> Option<String> {
+        let percent = |x: f64| format!("{} %", significant(100.0 * x, 2));
+        let on = [" motions", " earthquake-like ones"];
+        let told = self.errors.iter().zip(on).filter_map(|(errors, on)| {
+            let ProgramErrors { histories, lost, peak: [median, most], .. } = errors.as_ref()?;
+            let lost = match lost {
+                0 => String::new(),
+                lost => format!(" (it fails on {lost})"),
+            };
+            let most = most.map_or(String::new(), |most| format!(", {} (90 %)", percent(most)));
+            Some(format!("{} (median){most} on {histories}{on}{lost}", percent((*median)?)))
+        });
+        let told = told.collect::<Vec<_>>().join("; ");
+        (!told.is_empty()).then(|| format!("such steps err in the largest displacement by {told}"))
     }
 
     /// Where in a step forces are taken: 1 + alpha of HHT, else its end.

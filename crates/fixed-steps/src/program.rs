@@ -65,6 +65,25 @@ impl ProgramName {
         }
     }
 
+    /// Whether its decks can be set to this integrator. SAP2000's have Newmark's and
+    /// Hilber-Hughes-Taylor's; OpenSees' generalized alpha is not Chung and Hulbert's.
+    pub fn has(self, integrator: Integrator) -> bool {
+        match self {
+            Self::Sap2000 | Self::Etabs => {
+                matches!(integrator, Integrator::Newmark { .. } | Integrator::Hht { .. })
+            }
+            Self::OpenSees => !matches!(integrator, Integrator::GeneralizedAlpha { .. }),
+        }
+    }
+
+    /// Those integrators, as users give them.
+    pub fn integrators(self) -> &'static str {
+        match self {
+            Self::Sap2000 | Self::Etabs => "hht:ALPHA or newmark:GAMMA:BETA",
+            Self::OpenSees => "backward-euler, trbdf2, hht:ALPHA or newmark:GAMMA:BETA",
+        }
+    }
+
     /// The integrator that it is to be set to, unless told otherwise.
     pub fn integrator(self) -> Integrator {
         match self {

@@ -255,9 +255,16 @@ impl<U> ProgramRow<U> {
         self.known() == Some(ProgramName::Etabs)
     }
 
-    /// Whether it is OpenSees with steps of one size.
-    pub fn is_opensees_even(&self) -> bool {
-        matches!(self.known(), Some(ProgramName::OpenSees))
+    /// Whether its springs come in decks for OpenSees: of OpenSees itself, and of a program that
+    /// is known by its integrator alone, if OpenSees has that.
+    pub fn in_opensees(&self) -> bool {
+        let integrator = self.integrator.parse::<Integrator>();
+        !self.is_csi() && integrator.is_ok_and(|integrator| ProgramName::OpenSees.has(integrator))
+    }
+
+    /// Whether its springs come in SAP2000's tables.
+    pub fn in_sap2000(&self) -> bool {
+        self.known() == Some(ProgramName::Sap2000)
     }
 
     /// Whether the springs are of no use, why, and what to do.

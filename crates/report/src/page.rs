@@ -165,6 +165,9 @@ fn programs(run: &Run) -> (&'static str, &'static str, String) {
                         " <code>decks/etabs_by_hand.txt</code> holds the model, these springs and \
                             these settings to type from; ETABS was not run."
                     }
+                    _ if !program.csi => {
+                        " No deck has these springs: type them into a model of your own."
+                    }
                     true => {
                         " <code>decks/model_sap2000.s2k</code> holds the model, these springs and \
                             these settings; it could not be tried with the program. \

@@ -16,9 +16,6 @@ use parameters::{
 use results::{FiledFinding, Finding, NotToBeUsed, PeakPair, ProgramFault};
 use springs::fixed_steps::THROUGH;
 
-/// Letters of a name in the first column of a screen.
-const NAME: usize = 9;
-
 /// Part of a step within which times are the same.
 const SAME: f64 = 1e-6;
 /// A tolerance above which one suspects a misprint.
@@ -133,7 +130,7 @@ impl ProgramReport {
             units,
             table: table(row, told.1),
             usable: row.not_to_be_used().is_none(),
-            deck_of_even_steps: row.is_opensees_even(),
+            deck_of_even_steps: row.in_opensees(),
             csi: row.is_csi(),
             etabs: row.is_etabs(),
             asked: row.asked,
@@ -145,9 +142,9 @@ impl ProgramReport {
         }
     }
 
-    /// The program's name, or that its steps are even, in nine letters.
+    /// The program's name, or that its steps are even.
     pub(crate) fn short(&self) -> &str {
-        if self.program.chars().count() <= NAME { &self.program } else { "even step" }
+        if self.csi { &self.program } else { "even" }
     }
 
     /// What goes wrong and the errors.
@@ -230,10 +227,15 @@ fn settings<U>(
     let [largest, least] = [1, row.substeps].map(|n| significant(row.step_s / n as f64, 4));
     let mut all = vec![set("integrator", integrator.clone(), integrator)];
     all.extend(output);
-    let substeps = format!("substeps max {largest}, min {least} s");
+    let substeps = match row.is_csi() {
+        true => format!("substeps max {largest}, min {least} s"),
+        false => format!("steps of {largest} s, halved down to {least} s where one fails"),
+    };
     all.push(set("largest substep", format!("{largest} s"), substeps));
     all.push(set("smallest substep", format!("{least} s"), String::new()));
-    all.push(set("iterations with constant stiffness", "0".into(), String::new()));
+    if row.is_csi() {
+        all.push(set("iterations with constant stiffness", "0".into(), String::new()));
+    }
     let (name, value, large) = match row.converged {
         ProgramTest::UnbalanceOverWeight(x) => {
             ("iteration convergence tolerance, relative", significant(x, 3), x > LARGE)
@@ -242,7 +244,8 @@ fn settings<U>(
             ("tolerance of a change of place", format!("{} m", significant(x, 3)), false)
         }
     };
-    let iterations = format!("constant-stiffness 0, Newton {newton} iterations, tolerance {value}");
+    let constant = if row.is_csi() { "constant-stiffness 0, " } else { "" };
+    let iterations = format!("{constant}Newton {newton} iterations, tolerance {value}");
     all.push(set("Newton-Raphson iterations, at most", newton.to_string(), String::new()));
     all.push(ProgramSetting { meant: large, ..set(name, value, iterations) });
     if row.is_csi() {

@@ -13,9 +13,11 @@ impl Run {
         let Some(told) = graver.or(answer) else {
             return "Springs without a record: nothing rocked.".into();
         };
+        let by_chance = self.predictable_to().and_then(|until| told.finding.by_chance(until));
+        let message = by_chance.unwrap_or_else(|| told.message.clone());
         sentence(&format!(
             "{}{}{}{}",
-            told.message,
+            message,
             self.not_computed(),
             self.feet_apart(),
             self.foretold()

@@ -23,24 +23,25 @@ pub const DECKS: [(&str, DeckFormat); 5] = [
 const EVEN_DECKS: [(&str, DeckFormat); 2] =
     [(EVEN_DECK, DeckFormat::OpenSeesPy), ("model_even.tcl", DeckFormat::OpenSeesTcl)];
 
-/// Every deck; what is to be said of them: left out, with the reason, or ended early. ETABS does
-/// not read SAP2000's tables: where its springs are asked for there are none.
+/// Every deck; what is to be said of them: left out, with the reason, or ended early. Where springs
+/// are asked for another program, there are no tables for SAP2000: ETABS does not read them, and
+/// SAP2000 takes no steps that follow touches.
 pub(crate) fn decks<U>(
     program: Option<&ProgramRow<U>>,
     text: impl Fn(DeckFormat) -> Result<(String, Option<String>), ExportError>,
 ) -> Result<RunTexts, FolderError> {
-    let etabs = program.is_some_and(ProgramRow::is_etabs);
-    let written = |(_, format): &(&str, DeckFormat)| !(etabs && *format == DeckFormat::Sap2000);
+    let another = program.is_some_and(|program| !program.in_sap2000());
+    let written = |(_, format): &(&str, DeckFormat)| !(another && *format == DeckFormat::Sap2000);
     let decks: Vec<_> = DECKS.into_iter().filter(written).collect();
     gathered(&decks, |_, format| text(format))
 }
 
-/// The decks for OpenSees with steps of one size; none for another program.
+/// The decks for OpenSees with steps of one size; none for SAP2000 and ETABS.
 pub(crate) fn even_decks<U>(
     program: Option<&ProgramRow<U>>,
     deck: impl Fn(DeckFormat) -> Result<SteppedDeck, ExportError>,
 ) -> Result<RunTexts, FolderError> {
-    match program.is_some_and(ProgramRow::is_opensees_even) {
+    match program.is_some_and(ProgramRow::in_opensees) {
         true => gathered(&EVEN_DECKS, |name, format| Ok(deck(format)?.told(name))),
         false => Ok(RunTexts::default()),
     }

@@ -115,7 +115,10 @@ impl Plan {
             units: records.units,
             component: records.component.clone(),
             baseline: records.baseline,
-            vertical: records.vertical.clone().map(|from| from.within(source.folder())),
+            vertical: records
+                .vertical
+                .clone()
+                .map(|from| from.into_inner().within(source.folder())),
         };
         let motions = ground::motions(source, &read, duration_s)?;
         let ratios = match &sweep.ratios {

@@ -140,7 +140,7 @@ pub(crate) struct Records {
     pub units: Option<Units>,
     pub component: Option<String>,
     pub baseline: bool,
-    pub vertical: Option<VerticalFrom>,
+    pub vertical: Option<Spanned<VerticalFrom>>,
     pub duration_s: Option<Spanned<f64>>,
 }
 

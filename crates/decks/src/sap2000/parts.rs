@@ -175,9 +175,11 @@ impl<'a> SapModel<'a> {
         let until = self.until.map_or(String::new(), |until| {
             format!(", to {until} s (beyond, the motion cannot be predicted)")
         });
+        let errors = self.even.and_then(|even| even.errors());
+        let errors = errors.map_or(String::new(), |errors| format!("$ Measured: {errors}.\n"));
         format!(
             "$ Expected at joint {}, m, {by}{until}: settled U3 {}; U1 {} to {}; U3 above settled \
-                {} to {}\n",
+                {} to {}\n{errors}",
             self.watched,
             digits(self.settled),
             digits(u.1),

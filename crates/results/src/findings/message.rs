@@ -52,7 +52,28 @@ fn later(forces: &[ForceName]) -> String {
     }
 }
 
+/// That a structure overturns, and what is to be added about that.
+fn overturns(time_s: f64, reference_s: Option<f64>, added: &str) -> String {
+    let reference = reference_s.map(|time| format!(" (in the reference at {})", s(time)));
+    let reference = reference.unwrap_or_default();
+    format!(
+        "the structure overturns at t = {}{reference}{added}; numbers count up to then",
+        s(time_s)
+    )
+}
+
 impl Finding {
+    /// The words for an overturning that comes later than a motion can be predicted, `until` (s).
+    pub fn by_chance(&self, until: f64) -> Option<String> {
+        match *self {
+            Self::Overturns { time_s, reference_s } if until < time_s => {
+                let added = ", by chance: a motion hardly different may leave it standing";
+                Some(overturns(time_s, reference_s, added))
+            }
+            _ => None,
+        }
+    }
+
     /// In one sentence.
     pub(crate) fn message(&self) -> String {
         match self {
@@ -137,18 +158,7 @@ impl Finding {
                     largest_at_s.map_or(String::new(), |time| format!(", at {}", s(time)))
                 )
             }
-            Self::Overturns { time_s, reference_s } => match reference_s {
-                Some(reference) => format!(
-                    "the structure overturns at t = {} (in the reference at {}); numbers count up \
-                        to then",
-                    s(*time_s),
-                    s(*reference)
-                ),
-                None => format!(
-                    "the structure overturns at t = {}; numbers count up to then",
-                    s(*time_s)
-                ),
-            },
+            Self::Overturns { time_s, reference_s } => overturns(*time_s, *reference_s, ""),
             Self::NoAnswer { model, time_s } => {
                 format!(
                     "the history {} could not be followed beyond t = {}",

@@ -74,6 +74,25 @@ fn a_block_that_overturns_is_said_to_and_marked() {
     assert!(page.contains("overturned at t = 4.4"));
 }
 
+/// An overturning that comes later than a motion can be predicted is not told as certain.
+#[test]
+fn an_overturning_that_cannot_be_predicted_is_told_as_chance() {
+    let block = "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 1000.0\n";
+    let run = run(2.5, Some(block));
+    let mut said = run.said(run.parameters.clone());
+    assert!(!said.verdict().contains("by chance"), "{}", said.verdict());
+    said.findings.extend(report::filed([Finding::IllConditioned {
+        moved_by_width: 1.0,
+        moved_by_scale: 1.0,
+        moved_by_restitution: None,
+        holds_to_s: Some(3.0),
+        springs_judged: false,
+    }]));
+    let verdict = said.verdict();
+    assert!(verdict.contains(", by chance: a motion hardly different may leave"), "{verdict}");
+    assert!(verdict.contains("; predictable to 3 s"), "{verdict}");
+}
+
 #[test]
 fn a_page_without_figures_is_whole() {
     let page = page_of(&run(1.0, None), false);
@@ -142,6 +161,24 @@ fn a_program_that_is_asked_for_has_its_sheet() {
             assert!((told - 1e3 * found).abs() < 0.1 + 1e-3 * told.abs(), "{line}: {extremes:?}");
         }
     }
+}
+
+/// Springs for an integrator that SAP2000 has not come in decks for OpenSees, and in no tables.
+#[test]
+fn springs_for_another_integrator_are_in_decks_that_have_it() {
+    let frame = "[structure]\nkind = \"aframe\"\nheight_m = 61.0\nwidth_m = 12.2\n\
+        mass_kg = 680.1e3\n[program]\nintegrator = \"trbdf2\"\n";
+    let run = run(1.0, Some(frame));
+    let texts = texts(&run, Path::new("out")).unwrap();
+    let find = |of: &str| texts.files.iter().find(|(file, _)| file == of).map(|(_, text)| text);
+    let deck = find("decks/model_even.py").unwrap();
+    let k1 = run.parameters.program.as_ref().unwrap().units.vertical.k1_n_per_m;
+    assert!(deck.contains("TRBDF2") && deck.contains(&format!("{k1:?}")), "{k1}: {deck}");
+    for tables in ["decks/model_sap2000.s2k", "decks/sap2000_by_hand.txt"] {
+        assert!(find(tables).is_none(), "{tables}");
+    }
+    let page = find("report.html").unwrap();
+    assert!(page.contains("model_even.py") && !page.contains("model_sap2000"), "{page}");
 }
 
 /// A step that is far too long is told in the findings, with the number, and no sheet is offered.

@@ -72,6 +72,13 @@ pub(crate) fn motions(
     if motions.is_empty() {
         return Err(source.at(kind, "no ground motion; give [records] or [[pulse]]"));
     }
+    let of_files = motions.iter().any(|motion| matches!(motion, SweepMotion::File(_)));
+    if let Some(vertical) = records.vertical.as_ref().filter(|_| !of_files) {
+        return Err(source.at(
+            vertical,
+            "vertical is for motions of files; those of this sweep are horizontal: take it out",
+        ));
+    }
     if *kind.get_ref() == SweepKind::Overturning && files > 0 {
         return Err(source.at(kind, "an overturning spectrum is of pulses; take [records] out"));
     }

@@ -29,8 +29,11 @@ pub(super) fn expected(parts: &SapModel) -> String {
     }
     text +=
         &format!("   these steps (emulated):  {}, U3 at most {} above that\n", range(u), mm(v.0));
+    if let Some(errors) = parts.even.and_then(|even| even.errors()) {
+        text += &format!("   Measured: {}.\n", errors.replace("; ", ";\n   "));
+    }
     text + "   The screen and report.html of the run have the answer without springs, up to when a \
-            motion can be\n   predicted, and by how much such steps err.\n"
+            motion can be\n   predicted.\n"
 }
 
 /// What a user must know, and would not expect.
