@@ -158,7 +158,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder, futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         rows = []
         for name in options.only.split(","):
-            parameters = pathlib.Path(folder) / name / "parameters.json"
+            # no blank in a path: the Tcl interpreter that pip installs takes one for two words
+            parameters = pathlib.Path(folder) / str(len(rows)) / "parameters.json"
             parameters.parent.mkdir()
             cap = ["--max-hz", options.max_hz] if options.max_hz else []
             springs = (
@@ -169,7 +170,7 @@ def main():
             parameters.write_text(json.dumps(springs))
             for scale in map(float, options.scales.split(",")):
                 for steps in map(int, options.steps.split(",")):
-                    own = parameters.parent / f"{scale} {steps}"
+                    own = parameters.parent / f"{scale}-{steps}"
                     own.mkdir()
                     rows.append(
                         (name, scale, steps, pool.submit(one, options.tune, parameters, scale, steps, options, own))
