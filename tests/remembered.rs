@@ -115,6 +115,13 @@ fn a_sheet_brings_its_ground_motion_and_leaves_that_of_another() {
     assert!(stderr(&output).contains("is not the ground motion of this sheet"), "{output:?}");
     assert!(!dir.path().join("sheets/half.txt").exists());
     assert_eq!(read("sheets/ground_motion.txt"), read("out/decks/ground_motion.txt"));
+    // SAP2000 takes no steps that follow touches
+    let events = [&sheet[..], &["--stepping", "events", "--out", "events/"]].concat();
+    let output =
+        Command::cargo_bin("tune").unwrap().current_dir(&dir).args(events).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("give --stepping even"), "{output:?}");
+    assert!(!dir.path().join("events").exists());
 }
 
 #[test]

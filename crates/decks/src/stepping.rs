@@ -4,7 +4,7 @@
 use files::message::significant;
 use fixed_steps::{
     FixedStepAnalysis, FixedStepBody, FixedStepHistory, FixedStepOutcome, FixedStepSprings, GaveUp,
-    Integrator, StepSettings,
+    Integrator, ProgramName, StepSettings,
     iteration::{ConvergenceTest, Iteration},
     recipe::TOLERANCE,
 };
@@ -156,9 +156,13 @@ impl EvenSteps {
 
     /// Nothing if SAP2000's tables have the integrator.
     pub(crate) fn in_tables(&self) -> Result<(), ExportError> {
-        match self.integrator {
-            Integrator::Newmark { .. } | Integrator::Hht { .. } => Ok(()),
-            other => Err(ExportError::Integrator { name: other.to_string(), program: "SAP2000" }),
+        let Self { integrator, .. } = self;
+        match ProgramName::Sap2000.has(*integrator) {
+            true => Ok(()),
+            false => {
+                let name = integrator.to_string();
+                Err(ExportError::Integrator { name, program: "SAP2000" })
+            }
         }
     }
 

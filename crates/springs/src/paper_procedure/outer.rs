@@ -288,9 +288,8 @@ impl Sampled {
         };
         let plan: SamplePlan = (0..samples.max(pairs.len())).map(sample_of).collect();
         let total = plan.len() + refinement.evaluations();
-        let plans = [plan];
-        let candidates = sample(benchmark, &plans, &|done, best| progress(done, total, best));
-        let [plan] = plans;
+        let told = |done, best| progress(done, total, best);
+        let candidates = sample(benchmark, std::slice::from_ref(&plan), &told);
         Some(Self { plan, candidates: candidates.into_iter().flatten().collect() })
     }
 
