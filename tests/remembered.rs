@@ -97,7 +97,7 @@ fn record_scale_and_duration_are_remembered_until_told_otherwise() {
 }
 
 /// A sheet comes with the ground motion that it names; a sheet of another motion is not written
-/// beside it.
+/// beside it, and has Housner's answer to it elsewhere.
 #[test]
 fn a_sheet_brings_its_ground_motion_and_leaves_that_of_another() {
     let dir = folder();
@@ -115,6 +115,14 @@ fn a_sheet_brings_its_ground_motion_and_leaves_that_of_another() {
     assert!(stderr(&output).contains("is not the ground motion of this sheet"), "{output:?}");
     assert!(!dir.path().join("sheets/half.txt").exists());
     assert_eq!(read("sheets/ground_motion.txt"), read("out/decks/ground_motion.txt"));
+    let other = [&sheet[..], &["--scale", "0.9", "--out", "other/"]].concat();
+    tune(dir.path(), &other);
+    let housner = |path: &str| {
+        let sheet = String::from_utf8(read(path)).unwrap();
+        sheet.lines().find(|line| line.trim_start().starts_with("Housner:")).map(str::to_string)
+    };
+    let [own, scaled] = ["sheets", "other"].map(|f| housner(&format!("{f}/sap2000_by_hand.txt")));
+    assert!(own.is_some() && scaled.is_some() && own != scaled, "{own:?} {scaled:?}");
     // SAP2000 takes no steps that follow touches
     let events = [&sheet[..], &["--stepping", "events", "--out", "events/"]].concat();
     let output =

@@ -12,7 +12,6 @@ use decks::{
 use frames::fem::{ElasticAnalysis, ElasticStart};
 use parameters::{Parameters, elastic::ElasticParameters, program::ProgramRow};
 use report::screen::{ETABS_SHEET, SHEET};
-use results::FiledFinding;
 use run_folder::{
     elastic::{deck, stepped_deck as stepped_deck_of},
     folder::of_one_run,
@@ -114,7 +113,7 @@ fn rigid(o: &ExportOptions, parameters: Parameters) -> Result<ExportedDeck, Comm
     let (text, line) = match stepping(o, parameters.program.as_ref())? {
         Stepping::Events => (deck_of(&parameters, &record, o.format, o.accuracy)?, line),
         stepping => {
-            let until = predictable_to(o, &parameters.findings);
+            let until = predictable_to(&o.record, &parameters, &record);
             told(stepped_deck(&parameters, &record, o.format, stepping, until)?, line)
         }
     };
@@ -146,11 +145,22 @@ fn stepping<U>(
     }
 }
 
-/// Up to when the run found that the motion can be predicted, if not to its end (s): of its own
-/// record, at its own scale.
-fn predictable_to(o: &ExportOptions, findings: &[FiledFinding]) -> Option<f64> {
-    let own = o.record.record.is_none() && o.record.scale.is_none();
-    report::predictable_to(findings).filter(|_| own)
+/// Up to when a rigid body's motion can be predicted, if not to its end (s): what the run found, of
+/// its own record at its own scale; what is found now, of another.
+pub(super) fn predictable_to(
+    options: &RecordOptions,
+    parameters: &Parameters,
+    record: &Record,
+) -> Option<f64> {
+    match is_own(options) {
+        true => report::predictable_to(&parameters.findings),
+        false => parameters::predictability::predictable_to(parameters, record),
+    }
+}
+
+/// Whether the ground motion is that of the run.
+fn is_own(options: &RecordOptions) -> bool {
+    options.record.is_none() && options.scale.is_none()
 }
 
 /// The text of a deck, and what to say of it besides the record.
@@ -171,7 +181,7 @@ fn elastic(
         (Stepping::Events, _) => {}
         (stepping, Some(program)) => {
             let program = CornerProgram::new(&assembled, program, stepping)?;
-            let until = predictable_to(o, &parameters.findings);
+            let until = report::predictable_to(&parameters.findings).filter(|_| is_own(&o.record));
             let deck = stepped_deck_of(&assembled, &program, &record, o.format, until)?;
             let (text, line) = told(deck, excitation.line());
             return Ok(ExportedDeck { text, record, line });

@@ -13,7 +13,7 @@ use comfy_table::{Table, presets};
 use super::{
     CommandError,
     common::RecordOptions,
-    export::{check_accuracy, read},
+    export::{check_accuracy, predictable_to, read},
     progress::Progress,
     terminal,
 };
@@ -69,7 +69,8 @@ pub fn run(o: &VerifyOptions) -> Result<(), CommandError> {
     check_folder(&o.out)?;
     check_accuracy(o.accuracy)?;
     let progress = Progress::new("OpenSees [s]", o.quiet);
-    let result = verify(&parameters, &record, o.accuracy, &program, &|done, all| {
+    let until = predictable_to(&o.record, &parameters, &record);
+    let result = verify(&parameters, &record, (o.accuracy, until), &program, &|done, all| {
         progress.tell(done, all, "")
     });
     progress.done();
@@ -179,6 +180,11 @@ fn judged(result: &Verification) -> String {
             out,
             "judged up to {until:.2} s: then the ground falls faster than the body, which has no \
                 rotational inertia\nof its own: how it turns in the air is not defined"
+        ),
+        Some(ForetoldEnd::IllConditioned) => writeln!(
+            out,
+            "judged up to {until:.2} s: the run found that beyond it a change of 0.1 % moves the \
+                motion too much"
         ),
     };
     let _ = writeln!(

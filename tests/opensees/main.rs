@@ -59,7 +59,7 @@ fn agrees_at(
     let parameters = Parameters::new(with_inertia(&structure), &springs);
     let record = Record::el_centro().truncated(20.0);
     for program in programs {
-        let result = verify(&parameters, &record, accuracy, program, &|_, _| ()).unwrap();
+        let result = verify(&parameters, &record, (accuracy, None), program, &|_, _| ()).unwrap();
         let a = result.opensees_against_ours;
         println!("{program:?}: {} steps, {:.1} s: {a:?}", result.steps, result.seconds);
         println!("a change of 1e-5 in width moves it by {:.1e}", result.width_sensitivity);
@@ -109,7 +109,8 @@ fn decks_on_stiff_springs_are_within_their_limit_in_few_steps() {
             let parameters = Parameters::new(structure, &stiff(&structure, hz));
             let record = Record::el_centro().truncated(20.0);
             for program in programs() {
-                let result = verify(&parameters, &record, ACCURACY, &program, &|_, _| ()).unwrap();
+                let result =
+                    verify(&parameters, &record, (ACCURACY, None), &program, &|_, _| ()).unwrap();
                 println!(
                     "{} m, {hz} Hz: {} steps, {:?}",
                     structure.height_m, result.steps, result.verdict
@@ -144,7 +145,7 @@ fn springs_on_which_a_lifting_foot_chatters_are_refused() {
     let parameters = Parameters::new(pier, &springs);
     for program in programs() {
         let record = Record::el_centro().truncated(20.0);
-        match verify(&parameters, &record, ACCURACY, &program, &|_, _| ()) {
+        match verify(&parameters, &record, (ACCURACY, None), &program, &|_, _| ()) {
             Ok(result) => {
                 println!("{:?}, itself {:?}", result.verdict, result.finer);
                 assert!(
@@ -163,6 +164,12 @@ fn springs_on_which_a_lifting_foot_chatters_are_refused() {
 /// The same for the springs that the program finds for the structure.
 fn tuned_agrees(structure: Structure, objective: Objective, max_hz: f64) {
     agrees(&programs(), structure, tuned(structure, objective, max_hz));
+}
+
+/// The same in steps asked for a quarter of the error: on springs soft for their body OpenSees is
+/// off by 0.0018 otherwise, and `verify` would ask it for finer steps still.
+fn soft_agrees(structure: Structure, objective: Objective, max_hz: f64) {
+    agrees_at(ACCURACY / 4.0, &programs(), structure, tuned(structure, objective, max_hz));
 }
 
 fn frame_of_5_m() -> Structure {
@@ -234,7 +241,7 @@ fn a_block_of_2_by_0_5_m_on_table_1_springs_agrees() {
 #[test]
 #[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
 fn a_block_of_2_by_0_5_m_on_its_springs_of_40_hz_agrees() {
-    tuned_agrees(block_of_2_m(), Objective::Landing, 40.0);
+    soft_agrees(block_of_2_m(), Objective::Landing, 40.0);
 }
 
 #[test]
@@ -246,7 +253,7 @@ fn a_block_of_2_by_0_5_m_on_its_springs_of_160_hz_agrees() {
 #[test]
 #[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
 fn a_block_of_2_by_0_5_m_on_springs_of_the_papers_procedure_agrees() {
-    tuned_agrees(block_of_2_m(), Objective::Arr, 160.0);
+    soft_agrees(block_of_2_m(), Objective::Arr, 160.0);
 }
 
 /// Largest NRMSE with dampers or a tendon.
@@ -260,7 +267,7 @@ fn agrees_with(members: Members, duration: f64) {
         let result = verify(
             &parameters,
             &Record::el_centro().truncated(duration),
-            ACCURACY,
+            (ACCURACY, None),
             &program,
             &|_, _| (),
         )

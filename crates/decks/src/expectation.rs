@@ -4,7 +4,7 @@ use super::FALLEN;
 use frames::answer::{Compared, ComparedEnd};
 use parameters::{
     Parameters,
-    predictability::{Foretold, ForetoldEnd, foretold_until, until_flight},
+    predictability::{Foretold, ForetoldEnd, foretold_until, until_flight, until_time},
 };
 use results::DeckEnd;
 use rocking::motion::Motion;
@@ -20,14 +20,16 @@ pub struct DeckExpectation {
 }
 
 impl DeckExpectation {
-    /// Of a rigid body's history, beside that of one slightly wider.
+    /// Of a rigid body's history, beside that of one slightly wider; `until`: up to when the run
+    /// found that it can be foretold, if that is not all of it (s).
     pub fn rigid(
         parameters: &Parameters,
         record: &Record,
         motion: &Motion,
         changed: &Motion,
+        until: Option<f64>,
     ) -> Self {
-        let until = foretold_rigid(parameters, record, motion, changed);
+        let until = foretold_rigid(parameters, record, [motion, changed], until);
         let fallen = motion
             .theta
             .iter()
@@ -35,8 +37,11 @@ impl DeckExpectation {
             .map_or(motion.len(), |i| i + 1);
         match until {
             Some(Foretold { samples, end }) if samples < fallen => {
-                let end =
-                    if end == ForetoldEnd::Flight { DeckEnd::Flight } else { DeckEnd::Foretold };
+                let end = match end {
+                    ForetoldEnd::Flight => DeckEnd::Flight,
+                    ForetoldEnd::Width => DeckEnd::Foretold,
+                    ForetoldEnd::IllConditioned => DeckEnd::IllConditioned,
+                };
                 Self { samples: samples.max(2), end }
             }
             _ if fallen < record.len() => Self { samples: fallen, end: DeckEnd::History },
@@ -57,16 +62,18 @@ impl DeckExpectation {
     }
 }
 
-/// Up to where a rigid body's history can be foretold, if not to its end.
+/// Up to where a rigid body's history can be foretold, if not to its end: from the history and that
+/// of one slightly wider, and from when the run found that it can be foretold (s).
 pub fn foretold_rigid(
     parameters: &Parameters,
     record: &Record,
-    motion: &Motion,
-    changed: &Motion,
+    [motion, changed]: [&Motion; 2],
+    until: Option<f64>,
 ) -> Option<Foretold> {
     foretold_until(motion, changed)
         .into_iter()
         .chain(until_flight(&parameters.structure, record))
+        .chain(until.map(|until| until_time(until, record.dt)))
         .filter(|foretold| foretold.samples < motion.len())
         .min_by_key(|foretold| foretold.samples)
 }
@@ -81,7 +88,12 @@ mod tests {
         Motion { u: theta.clone(), v: theta.clone(), theta }
     }
 
-    fn expected(theta: Vec<f64>, changed: Vec<f64>, up: Option<Vec<f64>>) -> DeckExpectation {
+    fn expected(
+        theta: Vec<f64>,
+        changed: Vec<f64>,
+        up: Option<Vec<f64>>,
+        until: Option<f64>,
+    ) -> DeckExpectation {
         let chain = Design::from_kc(0.5, 0.2, 0.92, 40.0);
         let frame = crate::with_inertia(&Structure::paper());
         let parameters = Parameters::new(frame, &Springs { vertical: chain, horizontal: chain });
@@ -89,20 +101,22 @@ mod tests {
         if let Some(up) = up {
             record = record.with_vertical(Record::new("up", 0.01, up).unwrap()).unwrap();
         }
-        DeckExpectation::rigid(&parameters, &record, &motion(theta), &motion(changed))
+        DeckExpectation::rigid(&parameters, &record, &motion(theta), &motion(changed), until)
     }
 
     #[test]
     fn what_ends_a_history_is_named() {
         let of = |e: DeckExpectation| (e.samples, e.end);
         let small = vec![0.1; 101];
-        assert_eq!(of(expected(small.clone(), small.clone(), None)), (101, DeckEnd::Record));
+        assert_eq!(of(expected(small.clone(), small.clone(), None, None)), (101, DeckEnd::Record));
         let parts: Vec<f64> = (0..101).map(|i| if i < 60 { 0.1 } else { 0.2 }).collect();
-        assert_eq!(of(expected(small.clone(), parts, None)), (60, DeckEnd::Foretold));
+        assert_eq!(of(expected(small.clone(), parts, None, None)), (60, DeckEnd::Foretold));
         let falls: Vec<f64> = (0..80).map(|i| 0.02 * f64::from(i)).collect();
-        assert_eq!(of(expected(falls.clone(), falls, None)), (51, DeckEnd::History));
+        assert_eq!(of(expected(falls.clone(), falls, None, None)), (51, DeckEnd::History));
         let up = (0..101).map(|i| if i == 40 { -9.9 } else { 0.0 }).collect();
-        let flies = expected(small.clone(), small, Some(up));
+        let flies = expected(small.clone(), small.clone(), Some(up), None);
         assert_eq!((flies.samples, flies.end), (40, DeckEnd::Flight));
+        let sensitive = expected(small.clone(), small, None, Some(0.3));
+        assert_eq!(of(sensitive), (31, DeckEnd::IllConditioned));
     }
 }

@@ -265,7 +265,7 @@ impl Stepped {
             .then(|| housner_range(&self.given, &self.parameters, record, compared));
         let model = DeckModel { even: Some(self.steps), housner: beside.flatten(), ..model };
         let text = export_model(&model, format)?;
-        Ok(SteppedDeck { text, gives_up_s })
+        Ok(SteppedDeck { text, gives_up_s, until })
     }
 
     /// The emulation's history on a record.
@@ -304,16 +304,19 @@ pub struct SteppedDeck {
     pub text: String,
     /// When the emulation of its steps gives up, which is where the deck ends (s).
     pub gives_up_s: Option<f64>,
+    /// Up to when the motion can be predicted, if not to its end (s).
+    pub until: Option<f64>,
 }
 
 impl SteppedDeck {
     /// The text, and a line for the user if the deck ends before the record.
     pub fn told(self, name: &str) -> (String, Option<String>) {
         let line = self.gives_up_s.map(|time| {
-            format!(
-                "{name} ends at {time:.2} s, where the emulation of its steps gives up: take \
-                    another integrator or another step, longer ones too"
-            )
+            let then = match self.until.filter(|until| *until <= time) {
+                Some(until) => format!("; the motion can be predicted to {until:.2} s"),
+                None => ": take another integrator or another step, longer ones too".into(),
+            };
+            format!("{name} ends at {time:.2} s, where the emulation of its steps gives up{then}")
         });
         (self.text, line)
     }
@@ -341,6 +344,7 @@ pub fn stepped_deck(
         return Ok(SteppedDeck {
             text: crate::deck(parameters, record, format)?,
             gives_up_s: None,
+            until,
         });
     }
     let stepped = Stepped::for_format(parameters, format, stepping)?;

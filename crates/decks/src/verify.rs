@@ -147,15 +147,16 @@ pub enum VerifyError {
 }
 
 /// Run the deck of `parameters` on `record` in `program` and compare; its steps follow from
-/// `accuracy`, a normalised error. All that the deck writes goes to a temporary folder that is
-/// removed. `progress` is told how many seconds of how many OpenSees has done.
+/// `accuracy`, a normalised error. `until`: up to when the run found that the motion can be
+/// foretold, if that is not all of it (s). All that the deck writes goes to a temporary folder that
+/// is removed. `progress` is told how many seconds of how many OpenSees has done.
 ///
 /// # Errors
 /// No such program, no OpenSees in it, an analysis that stops or hangs, no temporary folder.
 pub fn verify(
     parameters: &Parameters,
     record: &Record,
-    accuracy: f64,
+    (accuracy, until): (f64, Option<f64>),
     program: &Program,
     progress: &dyn Fn(usize, usize),
 ) -> Result<Verification, VerifyError> {
@@ -171,7 +172,7 @@ pub fn verify(
 
     let changed = slightly_wider(parameters, record);
     let width_sensitivity = nrmse(&changed.u, &history.motion.u);
-    let foretold = foretold_rigid(parameters, record, &history.motion, &changed);
+    let foretold = foretold_rigid(parameters, record, [&history.motion, &changed], until);
     let deck = Deck { parameters, record, program, progress };
     // what cannot be foretold is not followed: nothing could be judged by it
     let judged = foretold.map_or(history.motion.len(), |foretold| foretold.samples).max(2);

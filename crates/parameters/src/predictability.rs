@@ -6,9 +6,11 @@
 
 use crate::Parameters;
 use dynamics::fem::{Analysis, Control, History, Start};
-use rocking::scalar::GRAVITY;
 use rocking::{
+    conditioning::Conditioning,
+    housner::RockingOptions,
     motion::{Motion, nrmse},
+    scalar::GRAVITY,
     structure::Structure,
 };
 use strong_motion::Record;
@@ -56,6 +58,8 @@ pub enum ForetoldEnd {
     /// The ground falls away under a body that has no rotational inertia of its own: how it turns
     /// in the air is not defined.
     Flight,
+    /// The run found that a change of 0.1 % moves it too much from there on.
+    IllConditioned,
 }
 
 /// Up to where a history can be foretold.
@@ -72,6 +76,12 @@ pub struct Foretold {
 pub fn foretold_until(motion: &Motion, changed: &Motion) -> Option<Foretold> {
     let samples = foretold_samples(motion, changed)?;
     Some(Foretold { samples, end: ForetoldEnd::Width })
+}
+
+/// Up to where the run found that it can be foretold (s), of samples dt apart (s).
+pub fn until_time(until: f64, dt: f64) -> Foretold {
+    let samples = (until / dt).round() as usize + 1;
+    Foretold { samples, end: ForetoldEnd::IllConditioned }
 }
 
 /// How many samples that is.
@@ -110,6 +120,14 @@ pub fn until_flight(structure: &Structure, record: &Record) -> Option<Foretold> 
     }
     let samples = record.up().iter().position(|a| *a <= -GRAVITY)?;
     Some(Foretold { samples, end: ForetoldEnd::Flight })
+}
+
+/// Up to when the motion of Housner's body on a record can be predicted, if not to its end (s).
+pub fn predictable_to(parameters: &Parameters, record: &Record) -> Option<f64> {
+    let (body, restitution) = (parameters.structure.body(), Some(parameters.restitution()));
+    let vertical = record.vertical_accel();
+    let options = RockingOptions { restitution, vertical, ..Default::default() };
+    Conditioning::new(&body, record.dt, &record.accel, &options).predictable_to()
 }
 
 /// Our own history of a deck's model; `parameters` with inertia.

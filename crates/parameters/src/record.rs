@@ -12,8 +12,6 @@ use strong_motion::{
     ReadOptions, Record, RecordError, Source, Units, Vertical, excitation::Excitation,
 };
 
-/// Numbers that differ by less are the same but for rounding.
-const SAME: f64 = 1e-9;
 /// Length that files which remember no record stand for, unless they hold a match (s).
 const FORMER_DURATION_S: f64 = 20.0;
 
@@ -125,17 +123,6 @@ impl SourceRow {
 }
 
 impl RecordRow {
-    /// Whether this part of a record, scaled, is the one that the row tells of.
-    pub fn is_of(&self, used: &Record) -> bool {
-        let near = |a: f64, b: f64| (a - b).abs() <= SAME * a.abs();
-        let duration =
-            self.duration_s.is_none_or(|asked| (asked - used.duration()).abs() <= used.dt);
-        self.name == used.name
-            && near(self.dt_s, used.dt)
-            && duration
-            && near(self.pga_g, used.pga_g())
-    }
-
     /// The row of a ground motion, for a parameters.json in `folder`; `used` is the part used,
     /// scaled.
     pub fn new(excitation: &Excitation, used: &Record, folder: &Path) -> Self {

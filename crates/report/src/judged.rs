@@ -11,11 +11,12 @@ use results::{DeckEnd, Finding};
 use rocking::structure::Structure;
 use strong_motion::Record;
 
-/// Of a rigid body.
+/// Of a rigid body, whose motion can be foretold up to a time, if not to its end (s).
 pub(crate) fn rigid(
     structure: &Structure,
     parameters: &Parameters,
     record: &Record,
+    until: Option<f64>,
 ) -> Option<Finding> {
     let verdict = parameters.verdict.as_ref()?;
     if verdict.well_conditioned
@@ -27,7 +28,7 @@ pub(crate) fn rigid(
     let parameters = &Parameters { structure: with_inertia(structure), ..parameters.clone() };
     let (own, changed) =
         join(|| simulate(parameters, record).motion, || slightly_wider(parameters, record));
-    finding(record, DeckExpectation::rigid(parameters, record, &own, &changed))
+    finding(record, DeckExpectation::rigid(parameters, record, &own, &changed, until))
 }
 
 /// Of an elastic structure.

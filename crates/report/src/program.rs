@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::{Section, Table, Unit, elastic::springs::corner_units, filed, predictable_to, unit_of};
 use decks::OutputSteps;
-use errors::{ErrorWords, errors, table};
+use errors::{ErrorWords, ErrorsOf, errors, table};
 use files::message::{quantity, significant};
 use parameters::{
     Parameters, RecordRow,
@@ -100,7 +100,8 @@ impl ProgramReport {
             )
         });
         let late = late(parameters.peaks, &parameters.findings);
-        let told = ("top", "synthetic motions", late);
+        let until = predictable_to(&parameters.findings);
+        let told = ErrorsOf { peaks: "top", motions: "synthetic motions", late, until };
         Some(Self::new(row, units.into(), (inertia, output(row, parameters.record.as_ref())), told))
     }
 
@@ -109,7 +110,8 @@ impl ProgramReport {
         let row = parameters.program.as_ref()?;
         let late = late(parameters.peaks, &parameters.findings);
         // this record among them
-        let told = ("peaks", "motions", late);
+        let until = predictable_to(&parameters.findings);
+        let told = ErrorsOf { peaks: "peaks", motions: "motions", late, until };
         let output = output(row, parameters.record.as_ref());
         Some(Self::new(row, corner_units(&row.units.springs), (None, output), told))
     }
@@ -118,7 +120,7 @@ impl ProgramReport {
         row: &ProgramRow<U>,
         units: Vec<Unit>,
         (inertia, output): (Option<ProgramSetting>, Option<ProgramSetting>),
-        told: (&str, &'static str, bool),
+        told: ErrorsOf,
     ) -> Self {
         Self {
             program: row.program(),
@@ -128,7 +130,7 @@ impl ProgramReport {
             short_errors: [ErrorWords::Short, ErrorWords::Fewest]
                 .map(|words| errors(row, told, words)),
             units,
-            table: table(row, told.1),
+            table: table(row, told.motions),
             usable: row.not_to_be_used().is_none(),
             deck_of_even_steps: row.in_opensees(),
             csi: row.is_csi(),

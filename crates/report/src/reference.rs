@@ -50,9 +50,8 @@ impl HousnerReport {
         };
         let conditioning = Conditioning::new(body, record.dt, &record.accel, &options);
         let lifted = rocking.outcome != housner::RockingOutcome::NeverMoved;
-        let doubtful = lifted && !conditioning.well_conditioned();
         Self {
-            holds_to_s: conditioning.changes.holds_to_s.filter(|_| doubtful),
+            holds_to_s: conditioning.predictable_to().filter(|_| lifted),
             conditioning,
             regime: regime::check(
                 body,

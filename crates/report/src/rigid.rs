@@ -171,7 +171,8 @@ impl RigidRun {
         all.extend(self.report.findings());
         all.extend(reference::histories(&self.both));
         all.extend(self.both.with.as_ref().map(|_| Finding::MembersBeside));
-        all.extend(judged::rigid(&self.case.structure, &self.parameters, &self.job.record));
+        let until = all.iter().find_map(Finding::predictable_to);
+        all.extend(judged::rigid(&self.case.structure, parameters, &self.job.record, until));
         all
     }
 

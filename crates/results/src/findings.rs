@@ -6,11 +6,13 @@ use serde::{Deserialize, Serialize};
 use dynamics::effort::CutBy;
 
 mod advice;
+mod deck_end;
 mod force_name;
 mod message;
 mod not_done;
 mod of_steps;
 
+pub use deck_end::DeckEnd;
 pub use force_name::ForceName;
 pub use message::{HARDLY_ROCKS, apart_words};
 pub use not_done::NotDone;
@@ -304,22 +306,6 @@ pub enum Finding {
     },
 }
 
-/// Why a deck's history is judged for less than the record.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum DeckEnd {
-    /// All of the record is judged.
-    Record,
-    /// The body falls over, or our own history ends.
-    History,
-    /// From there on the motion hangs on the fifth digit of the width, or on changes as small.
-    Foretold,
-    /// The ground falls faster than a body that has no rotational inertia of its own.
-    Flight,
-    /// A corner slides on from a landing: what follows depends on friction.
-    Slides,
-}
-
 /// A quantity without and with something that was left out.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PeakChange {
@@ -367,6 +353,18 @@ impl From<Finding> for FiledFinding {
 }
 
 impl Finding {
+    /// Up to when it says that the motion can be foretold (s), if not to its end.
+    pub fn predictable_to(&self) -> Option<f64> {
+        match *self {
+            Self::ForetoldUpTo { time_s, .. } | Self::SlidesOn { time_s, .. } => Some(time_s),
+            Self::IllConditioned { holds_to_s, .. } => holds_to_s,
+            Self::DeckJudged { judged_s, end: DeckEnd::Foretold | DeckEnd::Slides, .. } => {
+                Some(judged_s)
+            }
+            _ => None,
+        }
+    }
+
     /// How much it weighs.
     pub(crate) fn weight(&self) -> Weight {
         match self {

@@ -18,12 +18,5 @@ pub use peaks::{ForetoldPeaks, PartsOfTop, PeakPair, PeakTimes, Peaks};
 
 /// Up to when a motion can be foretold (s), if that is not all of it.
 pub fn predictable_to(findings: &[FiledFinding]) -> Option<f64> {
-    findings.iter().find_map(|filed| match filed.finding {
-        Finding::ForetoldUpTo { time_s, .. } | Finding::SlidesOn { time_s, .. } => Some(time_s),
-        Finding::IllConditioned { holds_to_s: Some(time_s), .. } => Some(time_s),
-        Finding::DeckJudged { judged_s, end: DeckEnd::Foretold | DeckEnd::Slides, .. } => {
-            Some(judged_s)
-        }
-        _ => None,
-    })
+    findings.iter().find_map(|filed| filed.finding.predictable_to())
 }

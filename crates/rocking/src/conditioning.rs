@@ -106,6 +106,12 @@ impl Conditioning {
     pub fn well_conditioned(&self) -> bool {
         self.sensitivity.worst() < ILL_CONDITIONED && self.changes.proportionate()
     }
+
+    /// Up to when an ill-conditioned history can be predicted (s), see [`Changes::holds_to_s`];
+    /// none of a well-conditioned one: to its end.
+    pub fn predictable_to(&self) -> Option<f64> {
+        self.changes.holds_to_s.filter(|_| !self.well_conditioned())
+    }
 }
 
 /// How far one relative change of the width moves a history, as in [`Changes`]; `rocking` is the
@@ -297,7 +303,7 @@ mod tests {
         // what others measured: 0.2 to 0.3 %
         assert!((0.0015..0.0035).contains(&found.changes.width[0]), "{found:?}");
         assert!(found.well_conditioned() && !found.changes.overturning);
-        assert_eq!(found.changes.holds_to_s, None);
+        assert_eq!([found.changes.holds_to_s, found.predictable_to()], [None; 2]);
     }
 
     /// A block of restitution 0.6 rocks freely until it rests; then the ground pushes it for 3 s
@@ -324,6 +330,7 @@ mod tests {
         // what the push lifts, it lifts after 40 s
         let holds_to = found.changes.holds_to_s.unwrap();
         assert!((40.0..46.0).contains(&holds_to), "{holds_to}");
+        assert_eq!(found.predictable_to(), Some(holds_to));
     }
 
     /// Among motions made for a slender frame some look well conditioned to the derivative alone.

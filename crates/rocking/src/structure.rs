@@ -54,7 +54,8 @@ pub enum StructureError {
     Inertia { value: f64 },
     #[error(
         "structure: slenderness alpha = atan(width/(2 height)) is {alpha:.4} rad; rocking needs a \
-         body between 0.005 and 0.9 rad: check height_m (of the centre of mass) and width_m"
+         body between 0.005 and 0.9 rad: check width_m and height_m (of the \
+         centre of mass) or total_height_m"
     )]
     Slenderness { alpha: f64 },
     #[error(

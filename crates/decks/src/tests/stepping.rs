@@ -94,6 +94,20 @@ fn decks_compare_up_to_when_the_motion_can_be_predicted() {
     }
 }
 
+/// Another step is advised where the emulation gives up within what can be predicted, only there.
+#[test]
+fn a_deck_that_ends_before_its_record_says_so() {
+    let told = |until| {
+        let deck = SteppedDeck { text: String::new(), gives_up_s: Some(4.0), until };
+        deck.told("the deck").1.unwrap()
+    };
+    for until in [None, Some(5.0)] {
+        assert!(told(until).contains("ends at 4.00 s") && told(until).contains("another step"));
+    }
+    let after = told(Some(3.0));
+    assert!(after.contains("predicted to 3.00 s") && !after.contains("another step"), "{after}");
+}
+
 #[test]
 fn sap2000_tables_have_the_load_case_of_the_program() {
     let parameters = for_program(ProgramName::Sap2000, 0.001);

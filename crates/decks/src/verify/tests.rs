@@ -23,7 +23,7 @@ fn half_a_second() -> Record {
 fn with_stand_in(script: &str) -> Result<Verification, VerifyError> {
     let folder = tempfile::tempdir().unwrap();
     let python = stand_in(folder.path(), script);
-    verify(&parameters(), &half_a_second(), ACCURACY, &Program::Python(python), &|_, _| ())
+    verify(&parameters(), &half_a_second(), (ACCURACY, None), &Program::Python(python), &|_, _| ())
 }
 
 #[cfg(unix)]
@@ -43,8 +43,8 @@ fn a_python_that_is_not_there_is_named_in_one_line() {
     for program in
         [Program::Python("/nowhere/python3".into()), Program::Tcl(vec!["/nowhere/python3".into()])]
     {
-        let error =
-            verify(&parameters(), &half_a_second(), ACCURACY, &program, &|_, _| ()).unwrap_err();
+        let error = verify(&parameters(), &half_a_second(), (ACCURACY, None), &program, &|_, _| ())
+            .unwrap_err();
         let said = error.to_string();
         assert!(matches!(error, VerifyError::NoProgram { .. }));
         assert!(said.contains("/nowhere/python3") && !said.contains('\n'), "{said}");
@@ -70,7 +70,7 @@ fn without_the_package_opensees_one_line_says_how_to_install_it() {
     let folder = tempfile::tempdir().unwrap();
     let python = stand_in(folder.path(), "echo 'python3: No module named opensees' >&2; exit 1");
     let program = Program::Tcl(vec![python.display().to_string(), "-m".into(), "opensees".into()]);
-    let said = verify(&parameters(), &half_a_second(), ACCURACY, &program, &|_, _| ())
+    let said = verify(&parameters(), &half_a_second(), (ACCURACY, None), &program, &|_, _| ())
         .unwrap_err()
         .to_string();
     assert!(said.contains("pip install opensees") && !said.contains('\n'), "{said}");

@@ -21,7 +21,7 @@ pub struct OpenSeesVerdict {
     pub within: bool,
     /// Samples judged: all, or those that can be foretold.
     pub samples: usize,
-    /// Where those end, if that is before the history does (s).
+    /// The last of those, if that is before the history's last (s).
     pub until: Option<f64>,
     /// Why there.
     pub end: Option<ForetoldEnd>,
@@ -50,7 +50,7 @@ impl OpenSeesVerdict {
             error,
             within: error <= LIMIT,
             samples,
-            until: until.map(time),
+            until: until.map(|samples| time(samples.saturating_sub(1))),
             end,
             parted: parted.map(time),
         }
@@ -91,7 +91,7 @@ mod tests {
     fn what_cannot_be_foretold_is_not_judged_but_the_time_of_parting_is_told() {
         let verdict = judged(0.5, 60, Some(50));
         assert!(verdict.within && verdict.samples == 50);
-        assert_eq!((verdict.until, verdict.parted), (Some(0.5), Some(0.6)));
+        assert_eq!((verdict.until, verdict.parted), (Some(0.49), Some(0.6)));
         assert!(!judged(0.5, 40, Some(50)).within);
     }
 

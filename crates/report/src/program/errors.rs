@@ -15,11 +15,24 @@ pub(super) enum ErrorWords {
     Fewest,
 }
 
+/// What errors are of.
+#[derive(Clone, Copy)]
+pub(super) struct ErrorsOf {
+    /// What is measured.
+    pub peaks: &'static str,
+    /// On which motions.
+    pub motions: &'static str,
+    /// Whether the largest motion on the record comes later than it can be predicted.
+    pub late: bool,
+    /// Up to when it can be, if not to its end (s).
+    pub until: Option<f64>,
+}
+
 /// What goes wrong, if something does; then the errors, largest displacement first: median and what
 /// 90 % are below.
 pub(super) fn errors<U>(
     row: &ProgramRow<U>,
-    (peaks, motions, late): (&str, &'static str, bool),
+    ErrorsOf { peaks, motions, late, until }: ErrorsOf,
     words: ErrorWords,
 ) -> String {
     if let Some(why) = row.not_to_be_used() {
@@ -55,7 +68,11 @@ pub(super) fn errors<U>(
     };
     let [ends, top] = row.on_record.map_or([None; 2], |on| [on.gives_up_s, on.top]);
     let ends = ends.map_or(nothing(), |s| {
-        format!("this record: gives up at {} s, try another --step; ", significant(s, 3))
+        let then = match until.filter(|until| *until <= s) {
+            Some(_) => "after what can be predicted",
+            None => "try another --step",
+        };
+        format!("this record: gives up at {} s, {then}; ", significant(s, 3))
     });
     let top = top.filter(|_| ends.is_empty());
     let fewest = words == ErrorWords::Fewest;

@@ -36,7 +36,7 @@ fn stepped_deck_of(
 ) -> Result<SteppedDeck, ExportError> {
     let springs = (&program.row.units.chains()[..], Some(program));
     let text = deck_of(assembled, springs, record, (history, until), (format, ACCURACY))?;
-    Ok(SteppedDeck { text, gives_up_s: *gives_up_s })
+    Ok(SteppedDeck { text, gives_up_s: *gives_up_s, until })
 }
 
 impl ElasticRun {

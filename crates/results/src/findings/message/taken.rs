@@ -69,6 +69,7 @@ impl Finding {
                     DeckEnd::Foretold => {
                         ": from then on differences of 1e-5, as between two programs, show"
                     }
+                    DeckEnd::IllConditioned => ": beyond that, 0.1 % moves the motion too much",
                     DeckEnd::Flight => ": then the ground falls faster than the body",
                     DeckEnd::Slides => ": then a corner slides on, and friction decides",
                 };
