@@ -28,12 +28,14 @@ const open = async (hash = "", { width = 1440, dark = false } = {}) => {
   return page;
 };
 const drawn = (page) => page.waitForFunction(() => window.measures?.moves.some((m) => m.length > 2), null, { timeout: 60000 });
-const tuned = (page, timeout = 240000) => page.waitForFunction(() => window.runFiles, null, { timeout });
+const tuned = (page, timeout = 600000) => page.waitForFunction(() => window.runFiles, null, { timeout });
 
-// ---- size, first history, moves of a slider, the whole run, memory: medians of five
+// ---- size, first history, moves of a slider, the whole run, memory: medians of five on a
+// quiet machine, which alone judges times (TIMES=1)
+const quiet = process.env.TIMES === "1";
 check(fs.statSync(pageFile).size <= 1_500_000, `size: ${fs.statSync(pageFile).size} bytes of 1 500 000 at most`);
 const firsts = [], paints = [], tunes = [], memories = [];
-for (let i = 0; i < 5; i++) {
+for (let i = 0; i < (quiet ? 5 : 2); i++) {
   const page = await open("#kind=aframe");
   await drawn(page);
   firsts.push(await page.evaluate(() => window.measures.ready + window.measures.moves[0][2]));
@@ -54,8 +56,7 @@ for (let i = 0; i < 5; i++) {
   check(page.errors.length === 0, `no error (${page.errors.join("; ") || "none"})`);
   await page.context().close();
 }
-// times are judged on a quiet machine alone
-const timed = (good, what) => (process.env.TIMES === "1" ? check(good, what) : console.log(`time ${what}`));
+const timed = (good, what) => (quiet ? check(good, what) : console.log(`time ${what}`));
 timed(median(firsts) < 1000, `first history drawn after ${median(firsts).toFixed(0)} ms (below 1000)`);
 timed(quantile(paints, 0.9) <= 60, `slider to paint: median ${median(paints).toFixed(0)} ms, 90 % within ${quantile(paints, 0.9).toFixed(0)} ms (60)`);
 timed(median(tunes) <= 2000, `the whole run: ${median(tunes).toFixed(0)} ms (2000)`);

@@ -9,6 +9,7 @@ import ast
 import json
 import sys
 import tempfile
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -65,7 +66,8 @@ def sources(of: dict[str, Any]) -> list[str]:
 
 
 def main() -> int:
-    wrong = []
+    wrong: list[str] = []
+    to_run: dict[Path, dict[str, Any]] = {}
     for example in sorted((HERE / "examples").glob("*.py")):
         path = NOTEBOOKS / f"{example.stem}.ipynb"
         made = notebook(example.read_text())
@@ -74,11 +76,16 @@ def main() -> int:
             if sources(found) != sources(made) or not any(entry.get("outputs") for entry in found["cells"]):
                 wrong.append(path.name)
         elif "--run" in sys.argv[1:]:
-            run(json.loads(path.read_text()))
-            print(f"{path.name} runs")
+            to_run[path] = json.loads(path.read_text())
         else:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(json.dumps(run(made), indent=1) + "\n")
+            to_run[path] = made
+    with ProcessPoolExecutor() as pool:
+        for path, ran in zip(to_run, pool.map(run, to_run.values()), strict=True):
+            if "--run" in sys.argv[1:]:
+                print(f"{path.name} runs")
+            else:
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(json.dumps(ran, indent=1) + "\n")
     if wrong:
         print(
             f"not those of the examples, or without outputs: {', '.join(wrong)}; run python python/notebooks.py",

@@ -3,12 +3,12 @@
 use super::programs;
 use decks::verify::Program;
 
-/// `tune run` of an elastic structure, then `tune verify` in each program; the folder, with the run
-/// in `out` and the last one's in `out/verify`.
+/// `tune run` of an elastic structure, then `tune verify` in each program, with these options; the
+/// folder, with the run in `out` and the last one's in `out/verify`.
 fn elastic_agrees(
     case: &str,
     more: &[&str],
-    seconds: &str,
+    verify: &[&str],
     programs: &[Program],
 ) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
@@ -35,8 +35,8 @@ fn elastic_agrees(
                 ("--tcl", words.iter().map(|word| absolute(word)).collect::<Vec<_>>().join(" "))
             }
         };
-        let verify = ["verify", "--parameters", "out/parameters.json", "--duration", seconds];
-        let ran = tune(&[&verify[..], &["--out", "out/verify", option, &command]].concat());
+        let begin = ["verify", "--parameters", "out/parameters.json", "--out", "out/verify"];
+        let ran = tune(&[&begin[..], verify, &[option, &command]].concat());
         println!("{program:?}: {}", ran.1);
         let within = ran.1.contains("OpenSees is within 0.002 of our own rotation");
         assert!(ran.0 && within, "{}", ran.1);
@@ -62,8 +62,12 @@ fn a_column_of_several_elements_in_opensees_converges_to_plastic_landings() {
     let (structure, _) = case.split_once("[record]").unwrap();
     let case = format!("{}\n{column_of_two}", structure.trim_end());
     let errors = ["250", "1000"].map(|hz| {
-        let folder =
-            elastic_agrees(&case, &["--max-hz", hz, "--accuracy", "1e-5"], "4.5", &programs()[..1]);
+        let folder = elastic_agrees(
+            &case,
+            &["--max-hz", hz, "--accuracy", "1e-5"],
+            &["--duration", "4.5"],
+            &programs()[..1],
+        );
         let error = |name: &str| {
             let rigid_ground = column(&folder, "out/history.csv", &format!("{name}_reference"));
             let opensees = column(&folder, "out/verify/verify.csv", &format!("{name}_opensees_1"));
@@ -97,17 +101,23 @@ damping_ratio = 0.02
 #[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
 fn elastic_structures_agree() {
     let python = &programs()[..1];
-    elastic_agrees(include_str!("../../tuning/pier.toml"), &[], "5", python);
-    elastic_agrees(ELASTIC_FRAME, &[], "6", python);
+    let run = ["--work", "0.05", "--no-front"];
+    elastic_agrees(include_str!("../../tuning/pier.toml"), &run, &["--duration", "5"], python);
+    elastic_agrees(ELASTIC_FRAME, &run, &["--duration", "6"], python);
 }
 
+/// What decks of two languages are to show needs neither the best springs nor more than a few
+/// landings: three of the frame, five of the pier.
+const SHORT: &[&str] = &["--duration", "5", "--work", "0.05", "--no-front"];
+
 /// The Tcl interpreter that pip installs has no damping objects: without damping it must find what
-/// Python finds.
+/// Python finds. In steps as long as the limit of `tune verify` allows.
 #[test]
 #[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
 fn an_undamped_elastic_structure_agrees_in_every_language() {
     let undamped = ELASTIC_FRAME.replace("damping_ratio = 0.02", "damping_ratio = 0.0");
-    elastic_agrees(&undamped, &["--max-hz", "400"], "6", &programs());
+    let run = [SHORT, &["--max-hz", "400"]].concat();
+    elastic_agrees(&undamped, &run, &["--duration", "4.1", "--accuracy", "0.008"], &programs());
 }
 
 /// Rocking piers of El Centro's first seconds, damped at their corners and tied down.
@@ -118,5 +128,6 @@ fn an_elastic_structure_with_dampers_and_a_tendon_agrees_in_every_language() {
         .replace("damping_ratio = 0.02", "damping_ratio = 0.0");
     let members =
         "[damper]\nc_ns_per_m = 1e6\n[tendon]\nstiffness_n_per_m = 2e7\npretension_n = 1e6\n";
-    elastic_agrees(&format!("{pier}\n{members}"), &[], "4.5", &programs());
+    let verify = ["--duration", "4.5", "--accuracy", "0.008"];
+    elastic_agrees(&format!("{pier}\n{members}"), SHORT, &verify, &programs());
 }
