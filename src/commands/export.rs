@@ -146,13 +146,13 @@ fn stepping<U>(
 }
 
 /// Up to when a rigid body's motion can be predicted, if not to its end (s): what the run found, of
-/// its own record at its own scale; what is found now, of another.
+/// its own ground motion; what is found now, of another, or of a longer or shorter part.
 pub(super) fn predictable_to(
     options: &RecordOptions,
     parameters: &Parameters,
     record: &Record,
 ) -> Option<f64> {
-    match is_own(options) {
+    match is_own(options) && options.duration.is_none() {
         true => report::predictable_to(&parameters.findings),
         false => parameters::predictability::predictable_to(parameters, record),
     }
@@ -160,7 +160,7 @@ pub(super) fn predictable_to(
 
 /// Whether the ground motion is that of the run.
 fn is_own(options: &RecordOptions) -> bool {
-    options.record.is_none() && options.scale.is_none()
+    options.record.is_none() && options.scale.is_none() && options.vertical.is_none()
 }
 
 /// The text of a deck, and what to say of it besides the record.

@@ -183,8 +183,7 @@ fn judged(result: &Verification) -> String {
         ),
         Some(ForetoldEnd::IllConditioned) => writeln!(
             out,
-            "judged up to {until:.2} s: the run found that beyond it a change of 0.1 % moves the \
-                motion too much"
+            "judged up to {until:.2} s: beyond it a change of 0.1 % moves the motion too much"
         ),
     };
     let _ = writeln!(
