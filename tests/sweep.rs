@@ -251,3 +251,59 @@ fn an_overturning_spectrum_is_gathered_from_parts_of_any_number_of_rows() {
     sweep(folder.path(), "second", &["--no-figures"]);
     same(&folder.path().join("first"), &folder.path().join("second"));
 }
+
+/// What a sweep of `[records]` and levels prints on stdout and stderr.
+fn told(records: &str, more: &[&str]) -> (TempDir, String) {
+    let dir = TempDir::new().unwrap();
+    let spec = SWEEP.split("[records]").next().unwrap();
+    let levels = "[levels]\npga_g = [0.5, 0.8, 2.0]\n";
+    fs::write(dir.path().join("sweep.toml"), format!("{spec}[records]\n{records}\n{levels}"))
+        .unwrap();
+    let args = [&["sweep", "sweep.toml", "--out", "out", "--quiet"], more].concat();
+    let ran = tune(dir.path(), &args).stdout(Stdio::piped()).stderr(Stdio::piped()).output();
+    let ran = ran.unwrap();
+    assert!(ran.status.success(), "{ran:?}");
+    let told = [ran.stdout, ran.stderr].map(|bytes| String::from_utf8(bytes).unwrap()).concat();
+    (dir, told)
+}
+
+#[test]
+fn figures_of_several_structures_stay_in_the_folder() {
+    let (dir, _) = told("el_centro = true\nearthquakes = 5", &[]);
+    for name in ["fragility.png", "fragility_structures.png", "fragility_structures.svg"] {
+        assert!(dir.path().join("out").join(name).is_file(), "{name}");
+    }
+}
+
+/// A record of which the strong part is cut off is scaled by thousands; one that is there twice
+/// counts as two; a vertical motion is left out.
+#[test]
+fn doubts_of_records_and_structures_are_told_before_and_in_the_summary() {
+    let records = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/records/20161113_110259_WTMC_20.V2A");
+    let (dir, said) =
+        told(&format!("files = [{records:?}, {records:?}]\nduration_s = 5.0"), &["--no-figures"]);
+    for part in [
+        "the levels scale this record by up to",
+        "below 0.005 g; the whole record has 0.9922 g; use more of the record (duration_s under",
+        "a vertical component of 1.837 g beside 0.9922 g across is left out; write vertical =",
+        "and it counts twice; take one of them out",
+        "choose with component under [records]",
+    ] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+    let summary = fs::read_to_string(dir.path().join("out/summary.md")).unwrap();
+    assert_eq!(summary.matches("\nCHECK ").count(), 4, "{summary}");
+    let (_, none) = told("el_centro = true\nsynthetic = 3", &["--no-figures"]);
+    assert!(!none.contains("CHECK"), "{none}");
+}
+
+#[test]
+fn a_summary_of_some_parts_tells_of_how_many_histories() {
+    let dir = begun();
+    let out = dir.path().join("whole");
+    fs::remove_file(out.join("parts/part-00003-of-00025.parquet")).unwrap();
+    let args = ["sweep", "gather", "sweep.toml", "--out", "whole", "--partial", "--no-figures"];
+    assert!(tune(dir.path(), &args).status().unwrap().success());
+    let summary = fs::read_to_string(out.join("summary.md")).unwrap();
+    assert!(summary.starts_with("1404 of 1464 histories: 2 structures"), "{summary}");
+}

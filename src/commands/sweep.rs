@@ -10,10 +10,11 @@ use clap::{Args, Subcommand};
 
 use super::{CommandError, progress::Progress, run::threads, terminal};
 use run_folder::place::check_folder;
+use strong_motion::Notice;
 use sweep::{
     manifest::Manifest,
     parts::{Share, SweepParts},
-    plan::Plan,
+    plan::{InspectedSweep, Plan},
     springs::SpringsTable,
 };
 
@@ -71,6 +72,16 @@ pub fn run(o: &SweepOptions) -> Result<(), CommandError> {
     }
 }
 
+/// A sweep whose files were read; what is to be looked at again is told.
+fn inspected(plan: &Plan) -> Result<InspectedSweep, CommandError> {
+    let told = |notice: &Notice| terminal::stderr(notice.with_keys_of("records"));
+    let inspected = plan.inspect(&mut { told })?;
+    for doubt in &inspected.doubts {
+        terminal::stderr(format_args!("CHECK {doubt}"));
+    }
+    Ok(inspected)
+}
+
 /// The folder of a sweep, begun or gone on with; the springs that it needs.
 fn begin(
     plan: &Plan,
@@ -100,7 +111,7 @@ fn begin(
 impl SweepRunOptions {
     fn compute(&self, sweep: &Path) -> Result<(), CommandError> {
         let plan = Plan::read(sweep)?;
-        let hash = plan.hash(&mut |notice| terminal::stderr(notice))?;
+        let InspectedSweep { hash, doubts } = inspected(&plan)?;
         threads(self.jobs)?;
         let springs = begin(&plan, &hash, &self.out, self.quiet)?;
         let parts = SweepParts::new(&plan, &self.out, &hash);
@@ -150,7 +161,7 @@ impl SweepRunOptions {
             ))?;
             return Ok(());
         }
-        gather::gather(&parts, !self.no_figures)
+        gather::gather(&parts, &doubts, !self.no_figures)
     }
 }
 

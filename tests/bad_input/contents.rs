@@ -82,7 +82,7 @@ fn columns_that_are_no_record() {
     run_record("line.txt", &"1".repeat(1_000_000), &units, &["line.txt, line 1"]);
     run_record("a.json", "{\"a\":[1,2]}", &units, &["holds no samples"]);
     for (text, word) in [
-        ("0.02,0.1\n0.01,0.2\n0.0,0.1\n", "line 2: the time step is -0.01 s"),
+        ("0.02,0.1\n0.01,0.2\n0.0,0.1\n", "line 2: the time falls from 0.02 to 0.01 s"),
         ("0,0.1\n0,0.2\n0,0.1\n", "line 2: the time step is 0.0 s"),
         ("nan,0.1\nnan,0.2\n", "line 1: 'nan'"),
         ("0,0.1,3\n0.01,0.2,3\n0.02,1,3\n", "3 columns"),

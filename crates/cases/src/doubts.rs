@@ -10,7 +10,7 @@
 //! hence limits that lie far apart: 5 kg/m3 is four times the air's, 25,000 beyond the densest
 //! metals (osmium, 22,590).
 
-use super::{Case, ElasticCase, GivenKeys, structure::unit_of};
+use super::{Case, ElasticCase, GivenKeys, StructureSection, structure::unit_of};
 use frames::structure::ElasticStructure;
 use rocking::structure::{Kind, Structure};
 use strong_motion::{Source, excitation::Excitation};
@@ -35,6 +35,8 @@ pub enum Doubt {
     StrongMotion { pga_g: f64, scale: f64 },
     /// Peak ground acceleration of the part used, and of the whole record, scaled.
     WeakMotion { pga_g: f64, least_g: f64, whole_g: f64 },
+    /// The strongest part of the record is not used: the peaks, scaled.
+    PeakCut { pga_g: f64, whole_g: f64 },
     /// A vertical component of the record's file is left out that is not small: peaks of the whole
     /// file, scaled.
     VerticalLeftOut { peak_g: f64, horizontal_g: f64 },
@@ -65,6 +67,8 @@ const LEAST_PGA_G: f64 = 0.005;
 const HEIGHTS: [f64; 2] = [0.02, 500.0];
 /// Stronger ones were not recorded on the ground (g): horizontally 2.7 g, in Tsukidate in 2011.
 const MOST_PGA_G: f64 = 3.0;
+/// Below this share of the record's peak the part used lacks the strong motion.
+const USED_SHARE: f64 = 0.5;
 /// A part of a structure's mass that is nothing beside it: a number in tonnes is a thousandth.
 const NOTHING: f64 = 2e-3;
 /// A vertical component above this share of the horizontal one's peak is not left out without a
@@ -83,13 +87,24 @@ impl Case {
 
     /// Doubts of the body alone.
     pub fn doubts_of_structure(&self) -> Vec<Doubt> {
-        let body = &self.structure;
-        let height = if body.kind == Kind::Block { 2.0 * body.height_m } else { body.height_m };
-        let box_m = [height, body.width_m, body.width_m];
-        let density = density(body.mass_kg, box_m, DENSITY[0]);
-        let height_or_tonnes = || tonnes(body).or_else(|| total_height(body, &self.given));
-        of_height(height).into_iter().chain(height_or_tonnes()).chain(density).collect()
+        of_structure(&self.structure, &self.given)
     }
+}
+
+impl StructureSection {
+    /// Doubts of the body that it gives.
+    pub fn doubts(&self, body: &Structure) -> Vec<Doubt> {
+        of_structure(body, &self.given())
+    }
+}
+
+/// Doubts of a body, given by these keys.
+fn of_structure(body: &Structure, given: &GivenKeys) -> Vec<Doubt> {
+    let height = if body.kind == Kind::Block { 2.0 * body.height_m } else { body.height_m };
+    let box_m = [height, body.width_m, body.width_m];
+    let density = density(body.mass_kg, box_m, DENSITY[0]);
+    let height_or_tonnes = || tonnes(body).or_else(|| total_height(body, given));
+    of_height(height).into_iter().chain(height_or_tonnes()).chain(density).collect()
 }
 
 impl ElasticCase {
@@ -193,13 +208,15 @@ fn heavy_column(column_kg: f64, mass_kg: f64) -> Option<Doubt> {
 }
 
 /// Doubts of a ground motion, as it is used.
-pub(crate) fn of_excitation(excitation: &Excitation) -> Vec<Doubt> {
+pub fn of_excitation(excitation: &Excitation) -> Vec<Doubt> {
     let record = &excitation.record;
     let used = record.truncated(excitation.duration());
     let pga_g = excitation.scale.abs() * used.pga_g();
     let whole_g = excitation.scale.abs() * record.pga_g();
     let weak =
         (pga_g < LEAST_PGA_G).then_some(Doubt::WeakMotion { pga_g, least_g: LEAST_PGA_G, whole_g });
+    let cut = (weak.is_none() && pga_g < USED_SHARE * whole_g)
+        .then_some(Doubt::PeakCut { pga_g, whole_g });
     let strong =
         (pga_g > MOST_PGA_G).then_some(Doubt::StrongMotion { pga_g, scale: excitation.scale });
     let record_s = record.duration();
@@ -220,7 +237,7 @@ pub(crate) fn of_excitation(excitation: &Excitation) -> Vec<Doubt> {
     let only = only.map(|component| Doubt::VerticalTaken { component });
     let scale = excitation.scale;
     let reversed = (scale < 0.0 && record.vertical.is_some()).then_some(Doubt::Reversed { scale });
-    let of_peaks = weak.into_iter().chain(strong);
+    let of_peaks = weak.into_iter().chain(cut).chain(strong);
     only.into_iter().chain(of_peaks).chain(reversed).chain(long).chain(vertical).collect()
 }
 
@@ -247,6 +264,25 @@ impl Doubt {
                 let [mass, density] = [*mass, *kg_per_m3].map(figures);
                 format!("mass_kg = {mass} makes a block of {density} kg/m3, as deep as wide")
             }
+            Self::Height { height_m } => {
+                format!("a structure {} m high is none that was built", figures(*height_m))
+            }
+            Self::LightPart { key, mass_kg, all_kg } => format!(
+                "{key} = {} is next to nothing in a structure of {} kg",
+                figures(*mass_kg),
+                figures(*all_kg)
+            ),
+            Self::HeavyColumn { column_kg, mass_kg } => {
+                let [column, mass] = [*column_kg, *mass_kg].map(figures);
+                format!("columns of {column} kg stand under {mass} kg")
+            }
+            _ => self.message_of_motion(),
+        }
+    }
+
+    /// Of a ground motion.
+    fn message_of_motion(&self) -> String {
+        match self {
             Self::WeakMotion { pga_g, least_g, whole_g } => {
                 let whole = if whole_g >= least_g {
                     format!("; the whole record has {} g", figures(*whole_g))
@@ -258,18 +294,15 @@ impl Doubt {
                     figures(*pga_g)
                 )
             }
+            Self::PeakCut { pga_g, whole_g } => format!(
+                "the part used has a peak of {} g, the whole record {} g",
+                figures(*pga_g),
+                figures(*whole_g)
+            ),
             Self::VerticalLeftOut { peak_g, horizontal_g } => format!(
                 "a vertical component of {} g beside {} g across is left out",
                 figures(*peak_g),
                 figures(*horizontal_g)
-            ),
-            Self::Height { height_m } => {
-                format!("a structure {} m high is none that was built", figures(*height_m))
-            }
-            Self::LightPart { key, mass_kg, all_kg } => format!(
-                "{key} = {} is next to nothing in a structure of {} kg",
-                figures(*mass_kg),
-                figures(*all_kg)
             ),
             Self::StrongMotion { pga_g, scale } => {
                 let scaled = match *scale == 1.0 {
@@ -281,10 +314,6 @@ impl Doubt {
                     figures(*pga_g),
                     figures(MOST_PGA_G)
                 )
-            }
-            Self::HeavyColumn { column_kg, mass_kg } => {
-                let [column, mass] = [*column_kg, *mass_kg].map(figures);
-                format!("columns of {column} kg stand under {mass} kg")
             }
             Self::VerticalTaken { component } => {
                 format!("component {component}, a vertical one, is taken as the horizontal motion")
@@ -301,6 +330,7 @@ impl Doubt {
                     figures(*record_s)
                 )
             }
+            _ => String::new(),
         }
     }
 
@@ -316,10 +346,12 @@ impl Doubt {
             }
             Self::Height { .. } => "check its unit (m)".to_owned(),
             Self::Density { .. } => "check lengths (m) and mass (kg)".to_owned(),
-            Self::WeakMotion { least_g, whole_g, .. } if whole_g >= least_g => {
+            Self::WeakMotion { least_g, whole_g, .. } if whole_g < least_g => {
+                "check the unit of the record and its scale".to_owned()
+            }
+            Self::WeakMotion { .. } | Self::PeakCut { .. } => {
                 "use more of the record (--duration, duration_s)".to_owned()
             }
-            Self::WeakMotion { .. } => "check the unit of the record and its scale".to_owned(),
             Self::VerticalLeftOut { .. } => {
                 "take it with --vertical auto (vertical = \"auto\" in [record]) and compare"
                     .to_owned()
@@ -345,7 +377,11 @@ impl Doubt {
 /// Four significant digits, and no more than it takes.
 fn figures(x: f64) -> String {
     let rounded: f64 = format!("{x:.3e}").parse().unwrap_or(x);
-    if (1e-3..1e7).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
+    if rounded == 0.0 || (1e-3..1e7).contains(&rounded.abs()) {
+        format!("{rounded}")
+    } else {
+        format!("{rounded:e}")
+    }
 }
 
 #[cfg(test)]

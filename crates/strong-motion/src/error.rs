@@ -57,6 +57,11 @@ pub enum RecordError {
     )]
     Uneven { file: String, line: usize, step: f64, expected: f64 },
     #[error(
+        "{file}, line {line}: the time falls from {before:?} to {time:?} s, as most of them do; \
+         put times first and in order"
+    )]
+    TimesFall { file: String, line: usize, before: f64, time: f64 },
+    #[error(
         "{file}: no line with NPTS and DT near the top; an AT2 file says 'NPTS= 4000, DT= .01000 \
          SEC' on its fourth line"
     )]

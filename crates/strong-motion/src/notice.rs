@@ -33,6 +33,19 @@ impl Notice {
     pub(crate) const WEAK_G: f64 = 1e-4;
 }
 
+/// Names of options in the words of a file that has them as keys of a section.
+const OPTIONS: [(&str, &str); 3] =
+    [("--component", "component"), ("--column", "component"), ("--baseline", "baseline")];
+
+impl Notice {
+    /// The same for who gives keys of a section of a file, not options.
+    pub fn with_keys_of(&self, section: &str) -> String {
+        OPTIONS.iter().fold(self.to_string(), |told, (option, key)| {
+            told.replace(option, &format!("{key} under [{section}]"))
+        })
+    }
+}
+
 /// "component N28W", or the record where its file names none.
 fn who(component: &str) -> String {
     if component.is_empty() { "the record".to_owned() } else { format!("component {component}") }

@@ -110,6 +110,15 @@ impl Times {
         let mut sorted = steps.clone();
         sorted.sort_by(f64::total_cmp);
         let median = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
+        let falls = self.times.windows(2).position(|pair| pair[1] < pair[0]);
+        if let Some(first) = falls.filter(|_| median < 0.0) {
+            return RecordError::TimesFall {
+                file: file.to_owned(),
+                line: self.lines.get(first + 1).copied().unwrap_or(1),
+                before: self.times[first],
+                time: self.times[first + 1],
+            };
+        }
         let mut worst = 0;
         for (i, step) in steps.iter().enumerate() {
             if (step - median).abs() > (steps[worst] - median).abs() {
@@ -177,6 +186,15 @@ mod tests {
             .step("x", None)
             .unwrap();
         assert_eq!(step, 0.02);
+    }
+
+    #[test]
+    fn times_that_fall_are_told_to() {
+        let times = times((0..9).map(|i| format!("{:.2}", 0.09 - 0.01 * f64::from(i))));
+        let Err(RecordError::TimesFall { line, before, time, .. }) = times.step("x", None) else {
+            panic!("even")
+        };
+        assert_eq!((line, before, time), (11, 0.09, 0.08));
     }
 
     #[test]

@@ -1,6 +1,10 @@
 //! The ground motions of a sweep, each made or read when it is needed.
 
-use std::{f64::consts::TAU, path::PathBuf, sync::Arc};
+use std::{
+    f64::consts::TAU,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 use super::pulse::PulseShape;
 use rocking::{
@@ -73,6 +77,16 @@ pub struct MotionSource {
     pub p: (f64, f64),
 }
 
+impl MotionSource {
+    /// The part of a record that is used.
+    pub(crate) fn used(&self, record: Record) -> Record {
+        match self.duration_s {
+            Some(duration) => record.truncated(duration),
+            None => record,
+        }
+    }
+}
+
 /// Silence behind a pulse, for a body to topple or to come back in [1/p].
 pub(super) const SILENCE: f64 = 12.0;
 
@@ -123,11 +137,7 @@ impl SweepMotion {
     ) -> Result<Record, RecordError> {
         let record = match self {
             Self::ElCentro => Record::el_centro(),
-            Self::File(path) => {
-                let recording = Recording::read(path, &making.read)?;
-                recording.notices().iter().for_each(notice);
-                recording.into_record()
-            }
+            Self::File(path) => whole(path, making, notice)?,
             Self::Synthetic(i) => synthetic::record(making.seed, *i, p, alpha),
             Self::Earthquake(i) => synthetic::earthquake(making.seed, *i, making.p.0),
             // as long as the given one, which duration_s has cut already
@@ -149,9 +159,20 @@ impl SweepMotion {
                 });
             }
         };
-        Ok(match making.duration_s {
-            Some(duration) => record.truncated(duration),
-            None => record,
-        })
+        Ok(making.used(record))
     }
+}
+
+/// All of the record of a file; `notice` is told what its reader says of it.
+///
+/// # Errors
+/// A file that cannot be read.
+pub(crate) fn whole(
+    path: &Path,
+    making: &MotionSource,
+    notice: &mut dyn FnMut(&Notice),
+) -> Result<Record, RecordError> {
+    let recording = Recording::read(path, &making.read)?;
+    recording.notices().iter().for_each(notice);
+    Ok(recording.into_record())
 }

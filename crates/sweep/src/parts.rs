@@ -95,6 +95,12 @@ impl<'a> SweepParts<'a> {
         from..(from + self.plan.part).min(self.plan.cells())
     }
 
+    /// Cells of the parts that are gathered.
+    pub fn gathered_cells(&self) -> u64 {
+        let of = |part: &u64| self.cells(*part).end - self.cells(*part).start;
+        self.gathered.as_ref().map_or(self.plan.cells(), |parts| parts.iter().map(of).sum())
+    }
+
     /// The file of part i, if it is there; it is as it was written, and that part of this sweep.
     /// Else what is wrong with it.
     fn load(&self, part: u64) -> Result<Option<Bytes>, String> {
@@ -161,12 +167,7 @@ impl<'a> SweepParts<'a> {
         springs: Option<&SpringsTable>,
         done: &(dyn Fn(u64) + Sync),
     ) -> Result<(), SweepError> {
-        let cells = self.cells(part);
-        let table = if self.plan.kind == SweepKind::Overturning {
-            overturning::table(self.plan, &overturning::rows(self.plan, springs, cells, done)?)
-        } else {
-            row::table(self.plan, &history::rows(self.plan, springs, cells, done)?)
-        };
+        let table = self.rows(self.cells(part), springs, done)?;
         let path = self.path(part);
         let metadata = seal::metadata(self.hash, part, self.plan.parts(), table.rows());
         let mut bytes = table.parquet(&metadata).map_err(|e| SweepError::File {
@@ -175,6 +176,25 @@ impl<'a> SweepParts<'a> {
         })?;
         seal::seal(&mut bytes);
         manifest::whole(&path, &bytes)
+    }
+
+    /// The rows of a range of cells.
+    ///
+    /// # Errors
+    /// A record that cannot be read.
+    pub fn rows(
+        &self,
+        cells: Range<u64>,
+        springs: Option<&SpringsTable>,
+        done: &(dyn Fn(u64) + Sync),
+    ) -> Result<SweepTable, SweepError> {
+        let plan = self.plan;
+        Ok(match plan.kind {
+            SweepKind::Overturning => {
+                overturning::table(plan, &overturning::rows(plan, springs, cells, done)?)
+            }
+            _ => row::table(plan, &history::rows(plan, springs, cells, done)?),
+        })
     }
 
     /// Some columns of every part that is gathered, one part after another.

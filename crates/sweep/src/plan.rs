@@ -2,6 +2,7 @@
 //! written out.
 
 mod ground;
+mod inspection;
 mod levels;
 mod subjects;
 
@@ -15,10 +16,11 @@ use super::{
     spec::{SweepKind, SweepModel, SweepSource},
 };
 use cases::{ACCURACY, LONGEST_S, MAX_HZ};
+pub use inspection::InspectedSweep;
 pub use levels::Measure;
 use levels::levels;
 use rocking::scalar::GRAVITY;
-use strong_motion::{Notice, ReadOptions, fnv1a};
+use strong_motion::ReadOptions;
 pub use subjects::Subject;
 use subjects::subjects;
 
@@ -218,53 +220,6 @@ impl Plan {
             Measure::PgaG => level * GRAVITY / pga,
             Measure::PgaOverUplift => level * subject.uplift() / pga,
         }
-    }
-
-    /// A number that tells sweeps apart: FNV-1a of the program's version, of everything that
-    /// decides a result, and of the samples of every file. `notice` is told what the readers say of
-    /// the files.
-    ///
-    /// # Errors
-    /// A record that cannot be read, or has no motion.
-    pub fn hash(&self, notice: &mut dyn FnMut(&Notice)) -> Result<String, SweepError> {
-        let MotionSource { seed, duration_s, p, .. } = &self.making;
-        let mut text = format!(
-            "{} {:?} {:?} {seed} {duration_s:?} {p:?}",
-            env!("CARGO_PKG_VERSION"),
-            self.kind,
-            self.model
-        );
-        for subject in &self.subjects {
-            text += &format!("{:?} {:?}", subject.structure, subject.restitution);
-        }
-        text +=
-            &format!("{:?} {:?} {:?} {}", self.restitutions, self.measure, self.levels, self.part);
-        if self.model.fem() {
-            text += &format!("{:?}", self.springs);
-        }
-        let any = (self.subjects[0].p, self.subjects[0].alpha);
-        for motion in &self.motions {
-            if let SweepMotion::Like(index, given) = motion {
-                text += &format!("{} {:x}", motion.name(), given.target.fingerprint());
-                if *index == 0 {
-                    given.notices.iter().for_each(&mut *notice);
-                }
-            } else if !matches!(motion, SweepMotion::File(_)) {
-                text += &format!("{motion:?}");
-            } else {
-                // not where it lies, but what is in it
-                text += &motion.name();
-                let record = motion.told(&self.making, any, notice)?;
-                if record.pga() == 0.0 {
-                    return Err(SweepError::Still { record: record.name });
-                }
-                text += &format!("{:x}", record.fingerprint());
-                if let Some(up) = &record.vertical {
-                    text += &format!("{:x}", up.as_record(record.dt).fingerprint());
-                }
-            }
-        }
-        Ok(format!("{:016x}", fnv1a(text.bytes())))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{
     compare::Comparison,
-    fragility::{Fragility, FragilityGroup, LimitState, MEASURES, subject_name},
+    fragility::{Fragility, FragilityGroup, FragilityRow, LimitState, MEASURES, subject_name},
     ida::{Ida, IdaPoint},
     levels,
     plan::{Measure, Plan},
@@ -17,12 +17,13 @@ fn by(model: &str) -> &'static str {
     if model == "fem" { "on springs, by finite elements" } else { "by Housner's equation" }
 }
 
-/// What was computed.
-pub fn head(plan: &Plan) -> String {
+/// What was computed; of some parts alone, of how many histories.
+pub fn head(plan: &Plan, gathered: u64) -> String {
     let counted =
         |n: usize, one: &str, several: &str| format!("{n} {}", if n == 1 { one } else { several });
+    let part = if gathered < plan.cells() { format!("{gathered} of ") } else { String::new() };
     format!(
-        "{} histories: {}, {}, {}, {}.",
+        "{part}{} histories: {}, {}, {}, {}.",
         plan.cells(),
         counted(plan.subjects.len(), "structure", "structures"),
         counted(plan.motions.len(), "ground motion", "ground motions"),
@@ -37,7 +38,6 @@ const SPOKEN_OF: usize = 12;
 /// A paragraph a structure on overturning, and one on which measure tells most.
 pub fn fragility(plan: &Plan, fragility: &Fragility, ida: &Ida) -> Vec<String> {
     let mut said = Vec::new();
-    let percent = 100.0 * fragility.confidence;
     let spoken_of =
         |member: &FragilityGroup| member.subject.is_none_or(|subject| subject < SPOKEN_OF);
     for (at, member) in fragility.members.iter().enumerate().filter(|(_, member)| spoken_of(member))
@@ -59,36 +59,7 @@ pub fn fragility(plan: &Plan, fragility: &Fragility, ida: &Ida) -> Vec<String> {
             None => String::new(),
         };
         let share = 100.0 * pga.exceeded as f64 / pga.n.max(1) as f64;
-        let (measure, unit) = MEASURES[pga.measure];
-        let unit = if unit == "-" { String::new() } else { format!(" {unit}") };
-        let fit = match (&pga.fit, pga.bounds(fragility.half_width())) {
-            (LognormalFit::Fitted(fit), Some(bounds)) => format!(
-                "half of the motions overturn it at {measure} = {:.3}{unit}{} ({percent:.0} % \
-                 bounds {:.3} to {:.3}), beta {:.2} ({:.2} to {:.2})",
-                fit.median(),
-                if pga.is_extrapolated() { ", extrapolated beyond the levels" } else { "" },
-                bounds.median.0,
-                bounds.median.1,
-                fit.beta(),
-                bounds.beta.0,
-                bounds.beta.1
-            ),
-            (LognormalFit::NoneExceeded, _) => "no motion overturns it; raise the levels".into(),
-            (LognormalFit::AllExceeded, _) => "every motion overturns it; lower the levels".into(),
-            (LognormalFit::Separated { below, above }, _) => {
-                format!(
-                    "{measure} alone decides: up to {below:.3}{unit} it stands, from \
-                     {above:.3}{unit} it overturns"
-                )
-            }
-            (LognormalFit::Undetermined, _) => {
-                format!(
-                    "no fit on {measure}: outcomes are mixed at one level alone; add levels \
-                     about it"
-                )
-            }
-            _ => format!("no fit on {measure}: higher levels overturn it less often"),
-        };
+        let fit = fit_words(fragility, member, pga);
         said.push(format!(
             "- {name}{e}, {}: {share:.1} % of {} histories overturn; {fit}.",
             by(MODELS[member.model]),
@@ -110,6 +81,48 @@ pub fn fragility(plan: &Plan, fragility: &Fragility, ida: &Ida) -> Vec<String> {
     }
     said.push(on_bounds(fragility));
     said
+}
+
+/// What a fit of overturning says, in words.
+fn fit_words(fragility: &Fragility, member: &FragilityGroup, pga: &FragilityRow) -> String {
+    let percent = 100.0 * fragility.confidence;
+    let (measure, unit) = MEASURES[pga.measure];
+    let unit = if unit == "-" { String::new() } else { format!(" {unit}") };
+    match (&pga.fit, pga.bounds(fragility.half_width())) {
+        (LognormalFit::Fitted(fit), Some(bounds)) => format!(
+            "half of the motions overturn it at {measure} = {:.3}{unit}{} ({percent:.0} % \
+             bounds {:.3} to {:.3}), beta {:.2} ({:.2} to {:.2})",
+            fit.median(),
+            if pga.is_extrapolated() { ", extrapolated beyond the levels" } else { "" },
+            bounds.median.0,
+            bounds.median.1,
+            fit.beta(),
+            bounds.beta.0,
+            bounds.beta.1
+        ),
+        (LognormalFit::NoneExceeded, _) if member.excluded > 0 => {
+            let model = match MODELS[member.model] {
+                "housner" => "; model = \"fem\" follows those that leave the ground",
+                _ => "",
+            };
+            format!("no motion that is not left out overturns it{model}")
+        }
+        (LognormalFit::NoneExceeded, _) => "no motion overturns it; raise the levels".into(),
+        (LognormalFit::AllExceeded, _) => "every motion overturns it; lower the levels".into(),
+        (LognormalFit::Separated { below, above }, _) => {
+            format!(
+                "{measure} alone decides: up to {below:.3}{unit} it stands, from \
+                 {above:.3}{unit} it overturns"
+            )
+        }
+        (LognormalFit::Undetermined, _) => {
+            format!(
+                "no fit on {measure}: outcomes are mixed at one level alone; add levels \
+                 about it"
+            )
+        }
+        _ => format!("no fit on {measure}: higher levels overturn it less often"),
+    }
 }
 
 /// What the bounds rest on.
@@ -193,9 +206,7 @@ fn at_levels(
 }
 
 /// The measure with the least scatter.
-fn best_measure<'a>(
-    rows: impl Iterator<Item = &'a super::fragility::FragilityRow>,
-) -> Option<String> {
+fn best_measure<'a>(rows: impl Iterator<Item = &'a FragilityRow>) -> Option<String> {
     let betas: Vec<(&str, f64)> = rows
         .filter_map(|row| row.probit().map(|fit| (MEASURES[row.measure].0, fit.beta())))
         .collect();

@@ -66,11 +66,19 @@ pub fn fragility(plan: &Plan, fragility: &Fragility, path: &Path) -> Result<(), 
         if measures.is_empty() {
             return Ok::<_, CommandError>(());
         }
+        let drawn = |entry: usize| {
+            measures.iter().any(|measure| measure.curves.iter().any(|curve| curve.entry == entry))
+        };
+        let named = |(entry, name): (usize, &String)| match drawn(entry) {
+            true => name.clone(),
+            false => format!("{name}: no fit"),
+        };
+        let names: Vec<String> = names.iter().enumerate().map(named).collect();
         let title = format!("{what}, {} motions, {model}", plan.motions.len());
         let label = format!("probability, {:.0} % bounds", 100.0 * plan.confidence);
         let data = probability::FragilityFigure {
             title: &title,
-            entries: names,
+            entries: &names,
             measures: &measures,
             probability_label: &label,
         };

@@ -22,7 +22,7 @@ use sweep::{
     manifest::Manifest,
     overturning,
     parts::{MissingParts, SweepParts},
-    plan::Plan,
+    plan::{InspectedSweep, Plan},
     row,
     spec::SweepKind,
     summary,
@@ -61,6 +61,8 @@ const FILES: &[&str] = &[
     "fragility.csv",
     "fragility.png",
     "fragility.svg",
+    "fragility_structures.png",
+    "fragility_structures.svg",
     "compare.csv",
     "compare.png",
     "compare.svg",
@@ -73,7 +75,7 @@ const NAMED: usize = 20;
 
 pub fn run(o: &GatherOptions) -> Result<(), CommandError> {
     let plan = Plan::read(&o.sweep)?;
-    let hash = plan.hash(&mut |_| {})?;
+    let InspectedSweep { hash, doubts } = plan.inspect(&mut |_| {})?;
     let folder = o.out.display().to_string();
     Manifest::new(&plan, &hash).is_in(&o.out)?;
     let mut parts = SweepParts::new(&plan, &o.out, &hash);
@@ -99,7 +101,7 @@ pub fn run(o: &GatherOptions) -> Result<(), CommandError> {
         parts.gathered =
             Some((0..all).filter(|part| missing.binary_search(part).is_err()).collect());
     }
-    gather(&parts, !o.no_figures)
+    gather(&parts, &doubts, !o.no_figures)
 }
 
 /// The first of many, in a line.
@@ -112,7 +114,7 @@ fn few(all: impl Iterator<Item = String>, between: &str) -> String {
 }
 
 /// Write everything that follows from the parts, and print the summary.
-pub fn gather(parts: &SweepParts, draw: bool) -> Result<(), CommandError> {
+pub fn gather(parts: &SweepParts, doubts: &[String], draw: bool) -> Result<(), CommandError> {
     let plan = parts.plan;
     let folder = Folder::begin(
         parts.folder,
@@ -134,7 +136,8 @@ pub fn gather(parts: &SweepParts, draw: bool) -> Result<(), CommandError> {
     } else {
         histories(parts, out, draw, &save)?
     };
-    let said = said.join("\n") + "\n";
+    let checks = doubts.iter().map(|doubt| format!("CHECK {doubt}."));
+    let said = said.into_iter().chain(checks).collect::<Vec<_>>().join("\n") + "\n";
     write_file(&out.join("summary.md"), said.as_bytes())?;
     folder.finish()?;
     terminal::stdout(format_args!("{said}"))?;
@@ -152,7 +155,7 @@ fn histories(
     if plan.cells() <= CSV_ROWS {
         save("histories.csv", &whole(parts, &row::table(plan, &[]))?)?;
     }
-    let mut said = vec![summary::head(plan)];
+    let mut said = vec![summary::head(plan, parts.gathered_cells())];
     if plan.kind == SweepKind::Rocking {
         let ida = Ida::new(parts)?;
         save("rocking.csv", &ida.table(plan))?;

@@ -3,17 +3,19 @@
 use std::{
     fmt::Write as _,
     path::{Path, PathBuf},
+    time::Instant,
 };
 
 use clap::Args;
 
 use super::{
     super::{CommandError, terminal},
-    begin,
+    begin, duration,
     gather::absolute,
+    inspected,
 };
 use run_folder::place::write_file;
-use sweep::{parts::SweepParts, plan::Plan};
+use sweep::{parts::SweepParts, plan::Plan, spec::SweepKind, springs::SpringsTable};
 
 /// Shares unless said.
 const SHARES: u64 = 8;
@@ -55,9 +57,10 @@ pub fn run(o: &PlanOptions) -> Result<(), CommandError> {
         });
     }
     let plan = Plan::read(&o.sweep)?;
-    let hash = plan.hash(&mut |notice| terminal::stderr(notice))?;
-    begin(&plan, &hash, &o.out, o.quiet)?;
-    let missing = SweepParts::new(&plan, &o.out, &hash).missing(0..plan.parts()).parts.len();
+    let hash = inspected(&plan)?.hash;
+    let springs = begin(&plan, &hash, &o.out, o.quiet)?;
+    let parts = SweepParts::new(&plan, &o.out, &hash);
+    let missing = parts.missing(0..plan.parts()).parts.len();
     terminal::stdout(format_args!(
         "{} cells: {} motions, {} structures, {} restitutions, {} levels; {} parts of {} cells, \
          {missing} missing; sweep {hash}\n",
@@ -69,6 +72,9 @@ pub fn run(o: &PlanOptions) -> Result<(), CommandError> {
         plan.parts(),
         plan.part
     ))?;
+    if !o.quiet {
+        terminal::stderr(tried(&parts, springs.as_ref())?);
+    }
     let shares = o.shards.unwrap_or(SHARES).min(plan.parts());
     if let Some(asked) = o.shards.filter(|asked| *asked > shares) {
         terminal::stderr(format_args!(
@@ -98,6 +104,25 @@ pub fn run(o: &PlanOptions) -> Result<(), CommandError> {
     }
     terminal::stderr(format_args!("written to {}", terminal::shown(&o.out)));
     Ok(())
+}
+
+/// Places in a sweep at which some cells are tried, and how many: as many as go in lock-step, or
+/// one that is scanned.
+const TRIED: (u64, u64, u64) = (3, 16, 1);
+
+/// What the whole sweep takes, by some of its cells.
+fn tried(parts: &SweepParts, springs: Option<&SpringsTable>) -> Result<String, CommandError> {
+    let (places, histories, scans) = TRIED;
+    let each = if parts.plan.kind == SweepKind::Overturning { scans } else { histories };
+    let (all, mut cells, began) = (parts.plan.cells(), 0, Instant::now());
+    for place in 0..places {
+        let from = all * place / places;
+        let to = (from + each).min(all);
+        parts.rows(from..to, springs, &|_| {})?;
+        cells += to - from;
+    }
+    let seconds = began.elapsed().as_secs_f64() * all as f64 / cells.max(1) as f64;
+    Ok(format!("by {cells} cells tried on one core: about {} in all", duration(seconds)))
 }
 
 /// A word of a shell, within one line.

@@ -103,6 +103,10 @@ fn motions_that_nobody_feels_or_that_end_early_are_doubted() {
     assert!(matches!(with(-1.0, Some(0.02))[..],
             [Doubt::WeakMotion { pga_g, .. }] if (pga_g - 0.04 / 9.81).abs() < 1e-15));
     assert_eq!(with(1.0, Some(0.034)), []);
+    let cut = with(10.0, Some(0.02));
+    assert!(matches!(cut[..], [Doubt::PeakCut { .. }]));
+    let told = "the part used has a peak of 0.04077 g, the whole record 0.3058 g";
+    assert_eq!(cut[0].message(), told);
     assert_eq!(with(1.0, Some(90.0)), [Doubt::LongDuration { asked_s: 90.0, record_s: 0.03 }]);
     assert!(
         with(1.0, Some(90.0))[0].message().starts_with("90 s are asked for, the record has 0.03 s")

@@ -6,6 +6,7 @@ use crate::{
     SweepError,
     spec::{Grid, Kinds, SweepSource},
 };
+use cases::doubts::Doubt;
 use rocking::{
     scalar::GRAVITY,
     structure::{self, Body, Structure},
@@ -26,6 +27,8 @@ pub struct Subject {
     pub alpha: f64,
     /// (1/s)
     pub p: f64,
+    /// What to look at again of what the file gives.
+    pub doubts: Vec<Doubt>,
 }
 
 impl Subject {
@@ -36,7 +39,8 @@ impl Subject {
             structure::Kind::Block => "block",
         };
         let name = format!("{kind} R {} m, alpha {}", digits(body.radius()), digits(body.alpha()));
-        Self { name, structure, body, restitution, alpha: body.alpha(), p: body.p_squared().sqrt() }
+        let (alpha, p) = (body.alpha(), body.p_squared().sqrt());
+        Self { name, structure, body, restitution, alpha, p, doubts: Vec::new() }
     }
 
     /// g tan(alpha): what lifts it at rest (m/s2).
@@ -59,7 +63,8 @@ pub(super) fn subjects(source: &SweepSource) -> Result<Vec<Subject>, SweepError>
             .get_ref()
             .checked(&source.path)
             .map_err(|e| source.at(section, reason(&source.path, &e.to_string())))?;
-        subjects.push(Subject::new(structure, e));
+        let doubts = section.get_ref().doubts(&structure);
+        subjects.push(Subject { doubts, ..Subject::new(structure, e) });
     }
     if let Some(grid) = &source.spec.grid {
         of_grid(source, grid, &mut subjects)?;
