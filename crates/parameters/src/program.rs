@@ -123,17 +123,27 @@ pub struct ProgramRow<U> {
 /// What an emulation of a program finds on a record.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ProgramOnRecord {
-    /// Its largest top displacement over that of the reference, less one; none where one of them
-    /// falls or ends before the record.
+    /// Its largest top displacement over that of the reference, less one, up to when the motion can
+    /// be predicted; none where one of them falls or ends before that.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub top: Option<f64>,
     /// When it gives up, if it does (s).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gives_up_s: Option<f64>,
-    /// Whether the motion can be predicted up to the reference's largest top displacement; none:
+    /// When the structure lies on the ground, if it falls (s).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub falls_s: Option<f64>,
+    /// Whether no small change moves the motion by much, so that this tells of the springs; none:
     /// not looked at.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub predictable: Option<bool>,
+}
+
+impl ProgramOnRecord {
+    /// When it ends, if not with the record (s).
+    pub fn ends_s(&self) -> Option<f64> {
+        self.gives_up_s.or(self.falls_s)
+    }
 }
 
 /// Below this a displacement is rounding (m).
@@ -146,6 +156,7 @@ impl ProgramOnRecord {
         Self {
             top: top.map(|[found, reference]| found / reference - 1.0),
             gives_up_s,
+            falls_s: None,
             predictable: None,
         }
     }
@@ -316,6 +327,8 @@ impl<U> ProgramRow<U> {
             _ if !too_long && !self.has_usual_integrator() => ProgramAdvice::DefaultIntegrator,
             ProgramFault::Lost { .. } => ProgramAdvice::AnotherStep,
             ProgramFault::OnRecord { .. } if !too_long => ProgramAdvice::AnotherStep,
+            // what springs' sway errs on earthquakes does not fall with the step
+            ProgramFault::Peaks { earthquakes: true, .. } => step(USELESS),
             ProgramFault::Peaks { median: error, .. }
             | ProgramFault::OnRecord { top: error }
             | ProgramFault::TooLong { floor: error } => step(error.abs()),

@@ -46,6 +46,7 @@ pub fn design_forces(
     let dt = record.dt;
     let until =
         |times: [Option<f64>; 2]| samples_until(times.into_iter().flatten().reduce(f64::min), dt);
+    let least = ROUNDING * body.mass * GRAVITY * body.radius().min(1.0);
     let (sole, mut rows) = match softer {
         Some(softer) => {
             let peaks = |matched: &Match, history: &History, demands: &Demands| {
@@ -65,7 +66,7 @@ pub fn design_forces(
             };
             let other = peaks(&softer.matched, &softer.history, &softer.demands);
             let force = |k: usize| {
-                let change = relative(own[k].value, other[k].value);
+                let change = relative(own[k].value, other[k].value, least);
                 DesignForce::measured(own[k].value, own[k].time, change)
             };
             (force(0), [1, 2, 3].map(force))
@@ -79,7 +80,7 @@ pub fn design_forces(
                 let series: Vec<f64> = housner.iter().map(|row| row.largest(k)).collect();
                 let all = TimedPeak::of(dt, &series).unwrap_or_default();
                 let same = kept.iter().map(|&i| series[i].abs()).fold(0.0, f64::max);
-                let change = relative(same, springs[k].value);
+                let change = relative(same, springs[k].value, least);
                 let row = housner.get((all.time / dt).round() as usize);
                 let together = row.map(|row| row.together(kind, k));
                 let found = DesignForce::measured(all.value, all.time, change);
@@ -114,8 +115,15 @@ pub fn design_forces(
     }
 }
 
-/// How far two magnitudes are from each other; none where there is nothing to compare.
-fn relative(value: f64, other: f64) -> Option<f64> {
+/// A share of the weight below which a force is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// How far two magnitudes are from each other; none where there is nothing to compare. `least` is
+/// rounding.
+fn relative(value: f64, other: f64, least: f64) -> Option<f64> {
+    if value.abs().max(other.abs()) < least {
+        return Some(0.0);
+    }
     (value != 0.0)
         .then(|| (other.abs() / value.abs() - 1.0).abs())
         .filter(|change| change.is_finite())

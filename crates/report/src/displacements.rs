@@ -18,7 +18,7 @@ const MOVED: &str = "  of it feet landed elsewhere";
 /// What rows of parts that are largest at times of their own begin with.
 pub(crate) const LARGEST: &str = "largest by";
 /// What rows of parts of the top's displacement begin with.
-const PART: &str = "  of it";
+pub(crate) const PART: &str = "  of it";
 /// Share of the top's displacement below which it is not said.
 const NOT_SAID: f64 = 0.02;
 

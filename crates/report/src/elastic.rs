@@ -286,7 +286,7 @@ impl ElasticParts<'_> {
             ("energy residual", format!("{:.1e}", on.energy_residual)),
         ];
         let rows = rows.map(|(name, value)| vec![name.to_string(), value]);
-        let over = if on.whole { "all of it" } else { "where it can be compared" };
+        let over = if on.whole { "all that is used" } else { "where it can be compared" };
         Some(Section {
             id: "comparison",
             title: format!("The first {} s of the record: {over}", significant(on.compared_s, 4)),

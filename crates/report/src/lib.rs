@@ -251,6 +251,14 @@ pub fn filed(findings: impl IntoIterator<Item = Finding>) -> Vec<FiledFinding> {
         }
     }
     let mut all: Vec<FiledFinding> = all.into_iter().map(FiledFinding::from).collect();
+    if let Some(until) = predictable_to(&all) {
+        for filed in &mut all {
+            let Some(message) = filed.finding.by_chance(until) else { continue };
+            (filed.message, filed.remedy) =
+                (message, Some("judge by many: tune init sweep".into()));
+        }
+    }
+    design_by_near_motions(&mut all);
     let rank = |weight: Weight| match weight {
         Weight::Answer => 0,
         Weight::Fault => 1,
@@ -259,6 +267,28 @@ pub fn filed(findings: impl IntoIterator<Item = Finding>) -> Vec<FiledFinding> {
     };
     all.sort_by_key(|finding| rank(finding.weight));
     all
+}
+
+/// Motions near the record that rotate a structure by so much more than it does, for one in ten of
+/// them, are not left to a note.
+const NEAR_ROTATE_MORE: f64 = 1.25;
+
+/// A warning of motions near the record that do much more than it.
+fn design_by_near_motions(all: &mut [FiledFinding]) {
+    let own = all.iter().find_map(|filed| match filed.finding {
+        Finding::Stands { reference_share, share_of_overturning, .. } => {
+            Some(reference_share.unwrap_or(share_of_overturning))
+        }
+        _ => None,
+    });
+    let Some(own) = own else { return };
+    for filed in all {
+        let Finding::NearMotions { p90_ratio: [ninety, _], .. } = filed.finding else { continue };
+        if ninety.is_none_or(|ninety| ninety > NEAR_ROTATE_MORE * own) {
+            filed.weight = Weight::Warning;
+            filed.remedy = Some("design by these, or by several records".into());
+        }
+    }
 }
 
 impl Run {

@@ -13,7 +13,7 @@ use parameters::{
     elastic::ElasticParameters,
     program::{FootUnits, ProgramOnRecord, ProgramRow, ProgramTest},
 };
-use results::{FiledFinding, Finding, NotToBeUsed, PeakPair, ProgramFault};
+use results::{FiledFinding, Finding, NotToBeUsed, ProgramFault};
 use springs::fixed_steps::THROUGH;
 
 /// Part of a step within which times are the same.
@@ -99,19 +99,19 @@ impl ProgramReport {
                 format!("inertia {value}, not {}", significant(given, 4)),
             )
         });
-        let late = late(parameters.peaks, &parameters.findings);
+        let sensitive = is_sensitive(&parameters.findings);
         let until = predictable_to(&parameters.findings);
-        let told = ErrorsOf { peaks: "top", motions: "synthetic motions", late, until };
+        let told = ErrorsOf { peaks: "top", motions: "synthetic motions", sensitive, until };
         Some(Self::new(row, units.into(), (inertia, output(row, parameters.record.as_ref())), told))
     }
 
     /// Of an elastic structure's springs.
     pub(crate) fn of_elastic(parameters: &ElasticParameters) -> Option<Self> {
         let row = parameters.program.as_ref()?;
-        let late = late(parameters.peaks, &parameters.findings);
+        let sensitive = is_sensitive(&parameters.findings);
         // this record among them
         let until = predictable_to(&parameters.findings);
-        let told = ErrorsOf { peaks: "peaks", motions: "motions", late, until };
+        let told = ErrorsOf { peaks: "peaks", motions: "motions", sensitive, until };
         let output = output(row, parameters.record.as_ref());
         Some(Self::new(row, corner_units(&row.units.springs), (None, output), told))
     }
@@ -269,7 +269,7 @@ fn settings<U>(
 /// The output of SAP2000's load case on a record.
 fn output<U>(row: &ProgramRow<U>, record: Option<&RecordRow>) -> Option<ProgramSetting> {
     let record = record.filter(|_| row.is_csi())?;
-    let ends = row.on_record.and_then(|on| on.gives_up_s).unwrap_or(f64::INFINITY);
+    let ends = row.on_record.and_then(|on| on.ends_s()).unwrap_or(f64::INFINITY);
     let samples = (record.duration_s?.min(ends) / record.dt_s + SAME).floor() as usize + 1;
     let OutputSteps { count, step_s } = OutputSteps::of(row.step_s, record.dt_s, samples);
     let output = format!("{count} x {} s", significant(step_s, 4));
@@ -281,12 +281,11 @@ fn output<U>(row: &ProgramRow<U>, record: Option<&RecordRow>) -> Option<ProgramS
 pub fn with_verdict<U>(
     mut findings: Vec<Finding>,
     row: Option<&mut ProgramRow<U>>,
-    peaks: Option<PeakPair>,
     asked: bool,
 ) -> Vec<Finding> {
     let Some(row) = row else { return findings };
     row.asked = asked;
-    let predictable = Some(!late(peaks, &filed(findings.clone())));
+    let predictable = Some(!is_sensitive(&filed(findings.clone())));
     row.on_record = row.on_record.map(|on| ProgramOnRecord { predictable, ..on });
     let not_to_be_used = row.not_to_be_used();
     findings.extend(row.errs_on_earthquakes().map(|errors| Finding::ProgramErrsOnEarthquakes {
@@ -317,8 +316,8 @@ pub(crate) fn lost<U>(row: &ProgramRow<U>, asked: bool) -> Option<Finding> {
     many.then_some(Finding::ProgramLoses { program, step_s, lost, histories, csi, asked })
 }
 
-/// Whether the reference's largest displacement comes after what can be predicted.
-fn late(peaks: Option<PeakPair>, findings: &[FiledFinding]) -> bool {
-    let largest = peaks.and_then(|pair| pair.reference.times).map(|times| times.top_displacement_s);
-    predictable_to(findings).zip(largest).is_some_and(|(until, largest)| largest > until)
+/// Whether a small change moves the motion on the record by much: then what a program errs there
+/// tells nothing of its springs.
+fn is_sensitive(findings: &[FiledFinding]) -> bool {
+    findings.iter().any(|filed| matches!(filed.finding, Finding::IllConditioned { .. }))
 }

@@ -90,9 +90,9 @@ impl RigidRun {
         let of_steps = parameters.program.as_ref();
         let compared = (&both, job.record.dt);
         let of_steps = of_steps.and_then(|_| stepped_history(&parameters, &job.record).ok());
-        let on_record = of_steps
-            .as_ref()
-            .and_then(|history| program::on_record(&parameters, history, compared));
+        let on_record = of_steps.as_ref().and_then(|history| {
+            program::on_record(&parameters, history, compared, report.holds_to_s)
+        });
         if let Some(row) = &mut parameters.program {
             row.on_record = on_record;
         }
@@ -101,8 +101,8 @@ impl RigidRun {
             Some(design_forces(kind, &job.body, &job.record, &both, softer.as_ref(), until));
         let mut run = Self { case, job, front, both, report, of_steps, parameters };
         let (findings, asked) = (run.findings(), run.case.program.is_some());
-        let Parameters { program: row, peaks, .. } = &mut run.parameters;
-        run.parameters.findings = filed(with_verdict(findings, row.as_mut(), *peaks, asked));
+        let row = &mut run.parameters.program;
+        run.parameters.findings = filed(with_verdict(findings, row.as_mut(), asked));
         let until = predictable_to(&run.parameters.findings);
         run.parameters.design_forces =
             run.parameters.design_forces.map(|forces| forces.foretold_to(until));
@@ -257,7 +257,7 @@ pub fn of_case(case: &Case, mut parameters: Parameters) -> Run {
         search.chain(doubts(case.doubts_of_structure())).chain(springs_findings(&parameters));
     let found = found.chain(program::findings(case, &parameters)).collect();
     let (row, asked) = (parameters.program.as_mut(), case.program.is_some());
-    parameters.findings = filed(with_verdict(found, row, None, asked));
+    parameters.findings = filed(with_verdict(found, row, asked));
     alone(parameters)
 }
 

@@ -8,7 +8,7 @@ mod warnings;
 
 use super::{
     Run, Section, Table, Unit,
-    displacements::{DIFFERENCE, FRICTION, LARGEST},
+    displacements::{DIFFERENCE, FRICTION, LARGEST, PART},
     peak_table,
 };
 use files::message::{shortened, significant};
@@ -40,8 +40,8 @@ struct Crowding {
     settings: usize,
     /// Whether impacts, and the friction needed, stand in the table of peaks.
     all_peaks: bool,
-    /// Whether what was given, doubts of it, what was assumed and settings have one line each, and
-    /// no force has a line of its own.
+    /// Whether what was given, doubts of it and what was assumed have one line each, forces that
+    /// are withheld stand in one, no other has a line of its own, and displacements have no parts.
     tight: bool,
 }
 
@@ -198,7 +198,7 @@ fn answer(run: &Run, written: &Written, crowding: Crowding) -> Vec<String> {
         lines.push(String::new());
     }
     at_most(crowding.sentence, &mut lines, "", &run.verdict());
-    let peaks = peak_table(run).map(|table| of_screen(table, crowding.all_peaks).lines());
+    let peaks = peak_table(run).map(|table| of_screen(table, crowding).lines());
     lines.extend(peaks.into_iter().flatten());
     lines.extend(forces::lines(run, crowding.tight));
     springs(run, &mut lines);
@@ -225,7 +225,7 @@ fn answer(run: &Run, written: &Written, crowding: Crowding) -> Vec<String> {
 
 /// The table of peaks without what the report alone has; with the friction needed beside the
 /// impacts, which have no difference, if there is room for both.
-fn of_screen(mut table: Table, impacts: bool) -> Table {
+fn of_screen(mut table: Table, Crowding { all_peaks, tight, .. }: Crowding) -> Table {
     let friction = table.rows.pop_if(|row| row.first().is_some_and(|name| name == FRICTION));
     let last = table.rows.last_mut().filter(|row| row[0].starts_with(IMPACTS));
     match (friction, last) {
@@ -234,8 +234,11 @@ fn of_screen(mut table: Table, impacts: bool) -> Table {
         }
         (friction, _) => table.rows.extend(friction),
     }
-    let left_out =
-        |name: &str| name.starts_with(LARGEST) || (!impacts && name.starts_with(IMPACTS));
+    let left_out = |name: &str| {
+        name.starts_with(LARGEST)
+            || (!all_peaks && name.starts_with(IMPACTS))
+            || (tight && name.starts_with(PART))
+    };
     table.rows.retain(|row| !left_out(&row[0]));
     table
 }

@@ -13,11 +13,9 @@ impl Run {
         let Some(told) = graver.or(answer) else {
             return "Springs without a record: nothing rocked.".into();
         };
-        let by_chance = self.predictable_to().and_then(|until| told.finding.by_chance(until));
-        let message = by_chance.unwrap_or_else(|| told.message.clone());
         sentence(&format!(
             "{}{}{}{}",
-            message,
+            told.message,
             self.not_computed(),
             self.feet_apart(),
             self.foretold()
@@ -39,7 +37,7 @@ impl Run {
         let s = |time: f64| significant(time, 4);
         let ends = self.peaks.and_then(|pair| pair.reference_ends_s);
         let alone =
-            ends.map_or(String::new(), |time| format!("; beyond {} s on springs alone", s(time)));
+            ends.map_or(String::new(), |time| format!("; after {} s by springs alone", s(time)));
         let end = self.findings.iter().find_map(|filed| match filed.finding {
             Finding::Overturns { time_s, .. } => Some(time_s),
             _ => None,

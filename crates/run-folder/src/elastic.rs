@@ -208,15 +208,15 @@ impl ElasticRun {
             parameters,
         };
         run.parameters.peaks = Some(run.parts().peaks());
-        let on_record = run.program_on_record();
-        if let Some(row) = &mut run.parameters.program {
-            row.on_record = on_record;
-        }
         run.parameters.design_forces =
             Some(design_forces(&run.assembled.structure, &run.answer.design));
         let (findings, asked) = (run.parts().findings(&run.parameters), run.case.program.is_some());
-        let ElasticParameters { program: row, peaks, .. } = &mut run.parameters;
-        run.parameters.findings = filed(with_verdict(findings, row.as_mut(), *peaks, asked));
+        let on_record = run.program_on_record(&filed(findings.clone()));
+        if let Some(row) = &mut run.parameters.program {
+            row.on_record = on_record;
+        }
+        let row = &mut run.parameters.program;
+        run.parameters.findings = filed(with_verdict(findings, row.as_mut(), asked));
         run.parameters.peaks = Some(run.parts().foretold_peaks(&run.parameters.findings));
         let until = predictable_to(&run.parameters.findings);
         run.parameters.design_forces =

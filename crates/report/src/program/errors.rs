@@ -22,8 +22,8 @@ pub(super) struct ErrorsOf {
     pub peaks: &'static str,
     /// On which motions.
     pub motions: &'static str,
-    /// Whether the largest motion on the record comes later than it can be predicted.
-    pub late: bool,
+    /// Whether a small change moves the motion on the record by much.
+    pub sensitive: bool,
     /// Up to when it can be, if not to its end (s).
     pub until: Option<f64>,
 }
@@ -32,7 +32,7 @@ pub(super) struct ErrorsOf {
 /// 90 % are below.
 pub(super) fn errors<U>(
     row: &ProgramRow<U>,
-    ErrorsOf { peaks, motions, late, until }: ErrorsOf,
+    ErrorsOf { peaks, motions, sensitive, until }: ErrorsOf,
     words: ErrorWords,
 ) -> String {
     if let Some(why) = row.not_to_be_used() {
@@ -76,14 +76,13 @@ pub(super) fn errors<U>(
     });
     let top = top.filter(|_| ends.is_empty());
     let fewest = words == ErrorWords::Fewest;
-    let here = top.map_or(nothing(), |top| match (late, fewest) {
-        (true, false) => format!("this record: top {} (not predictable); ", signed(top)),
-        // the table of peaks says what the asterisk is
-        (true, true) => format!("here top {}*; ", signed(top)),
-        (false, false) => format!("this record: top {}; ", signed(top)),
-        (false, true) => format!("here top {}; ", signed(top)),
-    });
+    let here = top.map_or(nothing(), |top| here(top, (sensitive, until), fewest));
     if fewest {
+        let peaks = if name.starts_with("earthquake") {
+            format!("on earthquakes {peaks}")
+        } else {
+            peaks.to_string()
+        };
         let told = match errors.peak[0] {
             Some(_) => format!("{peaks} {median} (median), {ninety} (90 %){history}"),
             None => format!("most {name} are lost"),
@@ -105,6 +104,19 @@ pub(super) fn errors<U>(
         None => nothing(),
     };
     format!("{ends}{fails}{here}{within}{again}")
+}
+
+/// What the largest displacement on the record errs by, up to when it can be predicted (s).
+fn here(top: f64, (sensitive, until): (bool, Option<f64>), fewest: bool) -> String {
+    let to = until.map_or(String::new(), |until| format!(" to {} s", significant(until, 3)));
+    let (place, doubt) = match (fewest, sensitive) {
+        (true, false) => ("here", ""),
+        (true, true) => ("here", " (sensitive)"),
+        (false, false) => ("this record", ""),
+        (false, true) => ("this record", " (too sensitive to tell)"),
+    };
+    let colon = if fewest { "" } else { ":" };
+    format!("{place}{to}{colon} top {}{doubt}; ", signed(top))
 }
 
 /// A difference with its sign.

@@ -2,6 +2,7 @@
 
 use crate::{displacements::LEAST_DRIFT, program::lost};
 use cases::{Case, Yardstick};
+use decks::samples_to;
 use fixed_steps::{
     FixedStepHistory, FixedStepOutcome, FixedStepProgram, GaveUp, expected::step_for,
 };
@@ -38,26 +39,33 @@ pub(super) fn findings(case: &Case, parameters: &Parameters) -> Vec<Finding> {
     all
 }
 
-/// What a program with fixed time steps would find on the record, beside Housner's answer.
+/// What a program with fixed time steps would find on the record, beside Housner's answer: up to
+/// when its motion can be predicted, `until` (s), if not to its end.
 pub(super) fn on_record(
     parameters: &Parameters,
     history: &FixedStepHistory,
     (both, dt): (&ModelComparison, f64),
+    until: Option<f64>,
 ) -> Option<ProgramOnRecord> {
     let body = parameters.structure.body();
-    let of = |motion: &Motion| {
-        let (theta, u) = (&motion.theta, Some(&motion.u[..]));
-        Peaks::of_rigid((parameters.structure.kind, &body), dt, theta, u, 0).top_displacement_m
+    let all = &both.rocking.theta;
+    let samples = samples_to(until, dt, all.len());
+    let of = |theta: &[f64], u: Option<&[f64]>| {
+        let (theta, u) = (&theta[..samples], u.map(|u| &u[..samples]));
+        Peaks::of_rigid((parameters.structure.kind, &body), dt, theta, u, 0)
     };
-    let gives_up = match &history.outcome {
-        FixedStepOutcome::GaveUp(GaveUp { time, .. }) => Some(*time),
-        _ => None,
+    let [gives_up, falls_s] = match &history.outcome {
+        FixedStepOutcome::GaveUp(GaveUp { time, .. }) => [Some(*time), None],
+        FixedStepOutcome::Fallen { time } => [None, Some(*time)],
+        FixedStepOutcome::Finished => [None; 2],
     };
-    let stands = both.matched.overturned_housner_s.is_none()
-        && both.rocking.left_ground().is_none()
-        && matches!(history.outcome, FixedStepOutcome::Finished);
-    let reference = parameters.peaks.as_ref()?.reference;
-    let compared = stands && reference.drift_ratio > LEAST_DRIFT;
-    let both = compared.then(|| [of(&history.motion), reference.top_displacement_m]);
-    Some(ProgramOnRecord::of(both, gives_up))
+    let later = |time: Option<f64>| time.is_none_or(|time| until.is_some_and(|until| until < time));
+    let stands = later(both.matched.overturned_housner_s)
+        && later(both.rocking.left_ground())
+        && later(falls_s);
+    let Motion { theta, u, .. } = &history.motion;
+    let covered = stands && samples <= theta.len().min(all.len());
+    let reference = covered.then(|| of(all, None)).filter(|of| of.drift_ratio > LEAST_DRIFT);
+    let found = |reference: Peaks| [of(theta, Some(u)), reference].map(|of| of.top_displacement_m);
+    Some(ProgramOnRecord { falls_s, ..ProgramOnRecord::of(reference.map(found), gives_up) })
 }

@@ -42,7 +42,7 @@ pub(super) fn lines(run: &Run, tight: bool) -> Vec<String> {
         false => some.then(|| format!("{mark} not predictable").trim_start().to_string()),
     };
     let alone = run.peaks.and_then(|pair| pair.reference_ends_s);
-    let alone = alone.map(|end| format!("alone from {} s", significant(end, 3)));
+    let alone = alone.map(|end| format!("springs alone after {} s", significant(end, 3)));
     let rest = forces.all().any(|(_, force)| force.is_at_rest());
     let rest = rest.then(|| "own weight: no thrust".to_string());
     let notes: Vec<String> =
@@ -59,6 +59,8 @@ pub(super) fn lines(run: &Run, tight: bool) -> Vec<String> {
     let mut all: Vec<_> =
         forces.all().filter(|(name, _)| *name != ForceName::SoleVertical).collect();
     all.sort_by(|a, b| order(*a).total_cmp(&order(*b)));
+    let withheld: Vec<_> =
+        all.extract_if(.., |(_, force)| tight && force.value.is_none()).collect();
     let cells = |told: Told| -> Vec<[String; 2]> {
         let cell = |&(name, force): &(ForceName, DesignForce)| {
             let mark = if doubted((name, force)) { mark } else { "" };
@@ -85,6 +87,16 @@ pub(super) fn lines(run: &Run, tight: bool) -> Vec<String> {
     let one_each =
         || cells(Told::Both).iter().map(|cell| format!("  {}", cell.join("  "))).collect();
     lines.extend(rows.unwrap_or_else(one_each));
+    if !withheld.is_empty() {
+        let range = |(name, force): &(ForceName, DesignForce)| {
+            let range = force.others.and_then(|others| others.range());
+            let range =
+                range.map_or(String::new(), |range| format!(" {}", range_words(*name, range)));
+            format!("{}{range}", short(run, *name, force))
+        };
+        let all: Vec<String> = withheld.iter().map(range).collect();
+        wrap(&mut lines, "  withheld: ", &all.join("; "));
+    }
     lines
 }
 

@@ -6,7 +6,8 @@ use files::message::shortened;
 /// Letters of the longest unit that is kept with its number.
 const LONGEST_UNIT: usize = 2;
 
-/// The same as [`wrap`], in so many lines: what does not fit is left out.
+/// The same as [`wrap`], in so many lines: what does not fit is left out, by whole parts if the
+/// last line keeps half of its letters.
 pub(super) fn at_most(most: usize, lines: &mut Vec<String>, name: &str, text: &str) {
     let mut all = Vec::new();
     wrap(&mut all, name, text);
@@ -18,7 +19,11 @@ pub(super) fn at_most(most: usize, lines: &mut Vec<String>, name: &str, text: &s
                 let Some(space) = last.trim_end().rfind(' ') else { break };
                 last.truncate(space);
             }
-            *last = format!("{} ...", last.trim_end_matches([' ', ',', ';', ':']));
+            let part = last.rfind("; ").filter(|end| *end > WIDTH / 2);
+            match part {
+                Some(end) => last.replace_range(end + 1.., " ..."),
+                None => *last = format!("{} ...", last.trim_end_matches([' ', ',', ';', ':'])),
+            }
         }
     }
     lines.extend(all);
@@ -81,5 +86,8 @@ mod tests {
         assert_eq!(lines[1], "      1.946 s");
         at_most(1, &mut lines, "", &"words ".repeat(30));
         assert!(lines[2].ends_with("words ...") && lines[2].chars().count() <= WIDTH);
+        // cut where a part ends
+        at_most(1, &mut lines, "", &format!("{}; {}", "x".repeat(60), "words ".repeat(30)));
+        assert_eq!(lines[3], format!("{}; ...", "x".repeat(60)));
     }
 }

@@ -39,6 +39,11 @@ fn is_of_program(filed: &FiledFinding) -> bool {
     matches!(filed.finding, Finding::ProgramNotToBeUsed { .. } | Finding::ProgramStepTooLong { .. })
 }
 
+/// Whether the table of design forces says it already.
+fn is_of_forces(run: &Run, filed: &FiledFinding) -> bool {
+    run.design_forces.is_some() && matches!(filed.finding, Finding::ForceWithheld { .. })
+}
+
 /// A warning, and what to do.
 pub(super) struct Warned {
     /// What its line begins with.
@@ -104,7 +109,7 @@ fn ends_a_part(word: &str) -> bool {
 
 /// Warnings in words, the gravest first.
 pub(super) fn warnings(run: &Run, of_decks: &[String]) -> Vec<Warned> {
-    let told = |f: &FiledFinding| is_doubt(f) || is_of_program(f);
+    let told = |f: &FiledFinding| is_doubt(f) || is_of_program(f) || is_of_forces(run, f);
     let of_run = run.remarks().filter(|f| f.weight >= Weight::Warning && !told(f));
     let of_deck = |line: &String| {
         let (message, remedy) = line.split_once(": ").unwrap_or((line, ""));

@@ -61,7 +61,7 @@ impl Finding {
             Self::ForceWithheld { housner: Some(_), .. } => {
                 "design for the larger, or take stiffer springs: --accuracy"
             }
-            Self::ForceWithheld { .. } => "refine: elements, --accuracy",
+            Self::ForceWithheld { .. } => "refine: --accuracy, or elements of columns with mass",
             Self::SearchCut { .. }
             | Self::HistoriesUnfinished { .. }
             | Self::NearMotionsLeftOut { .. } => return self.remedy_of_search(),

@@ -212,8 +212,8 @@ impl Finding {
                     Some(_) => "",
                     None => ", but nowhere by a twentieth of its peak",
                 };
-                let most = percent(most);
-                format!("ill-conditioned: 0.1 % of {what} moves it by {most}{nowhere}")
+                let most = significant(100.0 * most, 2);
+                format!("ill-conditioned: 0.1 % of {what} moves it by {most} %{nowhere}")
             }
             Self::ForetoldUpTo { time_s, later_forces, .. } => format!(
                 "{}after t = {} a change of a millionth grows above a thousandth of the peak",
@@ -232,13 +232,12 @@ impl Finding {
                     [reference, springs] => format!("; {reference} and {springs} overturn"),
                 };
                 format!(
-                    "over {motions} motions within {} of the record the largest rotation is {} and \
-                        {} of overturning in the median, {} and {} for 90 % (rigid ground, \
-                        springs){fallen}",
+                    "{motions} motions within {} of the record rotate it by {} of overturning \
+                        (median), {} (90 %); on springs by {}, {}{fallen}",
                     percent(*change),
                     cell(median_ratio[0]),
-                    cell(median_ratio[1]),
                     cell(p90_ratio[0]),
+                    cell(median_ratio[1]),
                     cell(p90_ratio[1]),
                 )
             }
@@ -293,11 +292,12 @@ impl Finding {
                     quantity(housner.abs(), force.unit())
                 )
             }
-            Self::ForceWithheld { force, change, .. } => {
+            Self::ForceWithheld { force, change, of_block, .. } => {
+                let words = if *of_block { force.words_of_block() } else { force.words() };
                 let by = change.map_or("could not be checked".into(), |change| {
                     format!("varies {}", percent(change))
                 });
-                format!("{} is withheld: {by} with springs or mesh", force.words())
+                format!("{words} is withheld: {by} with springs or mesh")
             }
             Self::ForcesHeldInPart { over_s, changes } => {
                 let later =

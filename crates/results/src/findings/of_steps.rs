@@ -123,13 +123,13 @@ impl Finding {
                 quantity(*step_s, "s")
             ),
             Self::ProgramErrsOnEarthquakes { program, step_s, median, motions, floor } => {
-                let err = match median {
-                    Some(median) => format!("err by {} (median)", percent(*median)),
-                    None => "are lost".into(),
+                let errs = match median {
+                    Some(median) => format!("errs by {} (median peak)", percent(*median)),
+                    None => "loses most histories".into(),
                 };
                 format!(
-                    "peaks in {program} at {} {err} on {motions} earthquake-like motions, by the \
-                        step alone a history by {}",
+                    "{program} at {} {errs} on {motions} earthquake-like motions, by the step \
+                        alone a history by {}",
                     quantity(*step_s, "s"),
                     percent(*floor)
                 )
@@ -155,9 +155,7 @@ impl Finding {
             Self::ProgramStepTooLong { longest_s, .. } => {
                 return Some(ProgramAdvice::Step { step_s: *longest_s }.to_string());
             }
-            Self::ProgramErrsOnEarthquakes { .. } => {
-                "take OpenSees' deck, or judge by many records"
-            }
+            Self::ProgramErrsOnEarthquakes { .. } => "take OpenSees' deck, or judge by many",
             Self::ProgramNotToBeUsed { advice, .. } => return Some(advice.to_string()),
             Self::ProgramLoses { csi: true, .. } => {
                 "check that its history ends; else another --step, longer ones too"

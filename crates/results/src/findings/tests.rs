@@ -120,10 +120,7 @@ fn what_moves_an_ill_conditioned_motion_the_most_is_told() {
         holds_to_s: Some(20.0),
         springs_judged: true,
     };
-    assert_eq!(
-        of(Some(0.593)).message(),
-        "ill-conditioned: 0.1 % of restitution moves it by 59.3 %"
-    );
+    assert_eq!(of(Some(0.593)).message(), "ill-conditioned: 0.1 % of restitution moves it by 59 %");
     // of files that were written before it was told
-    assert_eq!(of(None).message(), "ill-conditioned: 0.1 % of width moves it by 0.974 %");
+    assert_eq!(of(None).message(), "ill-conditioned: 0.1 % of width moves it by 0.97 %");
 }

@@ -105,12 +105,14 @@ fn forces(run: &ElasticRun) -> Result<Figure, FigureError> {
             curves,
         })
         .collect();
-    let title = title(run, "What rocking buys");
+    let title = title(run, "What rocking buys, forces unfiltered");
     let sheet =
         stack::draw(&StackFigure { title: &title, t: &t, names, panels: &panels, event: None })?;
     Ok(Figure {
         name: draw::BEARING,
-        caption: "What the structure bears when it rocks, and held to the ground.",
+        caption: "What the structure bears when it rocks, and held to the ground, unfiltered: of \
+                  forces that the table has filtered or withholds, the spikes at landings are \
+                  those of springs and mesh.",
         sheet,
     })
 }

@@ -1,10 +1,11 @@
 //! Decks of an elastic structure for programs with steps of one size, and what such steps find.
 
 use super::{ElasticRun, deck_of};
-use decks::{ACCURACY, CornerProgram, DeckFormat, ExportError, SteppedDeck};
+use decks::{ACCURACY, CornerProgram, DeckFormat, ExportError, SteppedDeck, samples_to};
 use frames::assembled::Assembled;
 use parameters::program::{CornerUnits, ProgramOnRecord, ProgramRow};
 use report::predictable_to;
+use results::FiledFinding;
 use strong_motion::Record;
 
 /// Coordinates at every sample as a program with fixed time steps finds them, and when it gives up
@@ -40,18 +41,24 @@ fn stepped_deck_of(
 }
 
 impl ElasticRun {
-    /// What a program with fixed time steps would find on the record, beside the reference.
-    pub(super) fn program_on_record(&self) -> Option<ProgramOnRecord> {
+    /// What a program with fixed time steps would find on the record, beside the reference: up to
+    /// when its motion can be predicted, these being the findings.
+    pub(super) fn program_on_record(&self, findings: &[FiledFinding]) -> Option<ProgramOnRecord> {
         let (history, gives_up) = self.program_history.as_ref()?;
         let frame = &self.assembled.frame;
         let tops = self.assembled.watched.iter().map(|watched| watched.top);
         let top = |q: &Vec<f64>| {
             tops.clone().map(|top| frame.displacement(top, q)[0].abs()).fold(0.0, f64::max)
         };
-        let found = history.iter().map(top).fold(0.0, f64::max);
-        let whole = history.len() == self.record.len()
+        let samples = samples_to(predictable_to(findings), self.record.dt, self.record.len());
+        let whole = history.len() >= samples
             && self.answer.histories.falls(self.assembled.structure.body().alpha()).is_none();
-        let reference = self.parameters.peaks?.reference.top_displacement_m;
+        let found = history.iter().take(samples).map(top).fold(0.0, f64::max);
+        let pair = self.parts().foretold_peaks(findings);
+        let reference = match pair.foretold {
+            Some(part) => part.top_displacement_m[0],
+            None => pair.reference.top_displacement_m,
+        };
         Some(ProgramOnRecord::of(whole.then_some([found, reference]), *gives_up))
     }
 

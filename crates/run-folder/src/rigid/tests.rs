@@ -81,13 +81,16 @@ fn an_overturning_that_cannot_be_predicted_is_told_as_chance() {
     let run = run(2.5, Some(block));
     let mut said = run.said(run.parameters.clone());
     assert!(!said.verdict().contains("by chance"), "{}", said.verdict());
-    said.findings.extend(report::filed([Finding::IllConditioned {
+    let sensitive = Finding::IllConditioned {
         moved_by_width: 1.0,
         moved_by_scale: 1.0,
         moved_by_restitution: None,
         holds_to_s: Some(3.0),
         springs_judged: false,
-    }]));
+    };
+    let own = said.findings.iter().map(|filed| filed.finding.clone());
+    said.findings = report::filed(own.chain([sensitive]));
+    assert_eq!(said.findings[0].remedy.as_deref(), Some("judge by many: tune init sweep"));
     let verdict = said.verdict();
     assert!(verdict.contains(", by chance: a motion hardly different may leave"), "{verdict}");
     assert!(verdict.contains("; predictable to 3 s"), "{verdict}");
