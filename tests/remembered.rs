@@ -204,3 +204,51 @@ fn springs_are_made_without_a_record_and_are_those_that_a_record_too_weak_to_lif
     assert!(none.get("record").is_none() && none.get("match").is_none());
     assert!(none["assessment"]["reached"].as_bool().unwrap());
 }
+
+/// What is said of a file without `--record` is said of the run's own; a weak part is told of.
+#[test]
+fn the_own_record_is_read_again_as_the_options_say() {
+    let dir = folder();
+    let record = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/records/20180212_211557_WPWS_20.V2A");
+    let more = ["out", "--record", record, "--scale", "20"];
+    tune(dir.path(), &[&RUN[..], &more].concat());
+    let parameters = "out/parameters.json";
+    let export = ["export", "--parameters", parameters, "--format", "openseespy", "--out", "a.py"];
+    let told = |more: &[&str]| stderr(&tune(dir.path(), &[&export[..], more].concat()));
+    let own = told(&[]);
+    assert!(!own.contains("CHECK") && !own.contains("vertical"), "{own}");
+    let vertical = told(&["--vertical", "auto"]);
+    assert!(vertical.contains("S74E") && vertical.contains("vertical"), "{vertical}");
+    let other = told(&["--component", "S16W"]);
+    assert!(other.contains("S16W"), "{other}");
+    let short = told(&["--duration", "0.5"]);
+    assert!(short.contains("CHECK ") && short.contains("use more of the record"), "{short}");
+}
+
+/// A deck does not replace what it is made from.
+#[test]
+fn what_is_read_is_not_written_over() {
+    let dir = folder();
+    tune(dir.path(), &[&RUN[..], &["out"]].concat());
+    for (out, what) in [
+        ("out/../out/parameters.json", "is a file that this command reads"),
+        ("motions/centro.txt", "is a file that this command reads"),
+        ("case.toml", "is a case file"),
+    ] {
+        let before = fs::read(dir.path().join(out)).unwrap();
+        let export =
+            ["export", "--parameters", "out/parameters.json", "--format", "csv", "--out", out];
+        let mut refused = Command::cargo_bin("tune").unwrap();
+        let refused = refused
+            .current_dir(dir.path())
+            .args(export)
+            .assert()
+            .code(2)
+            .get_output()
+            .stderr
+            .clone();
+        let told = String::from_utf8(refused).unwrap();
+        assert!(told.contains(what) && told.contains("name another file with --out"), "{told}");
+        assert_eq!(fs::read(dir.path().join(out)).unwrap(), before);
+    }
+}

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{CommandError, terminal};
-use cases::{LONGEST_S, NO_MOTION};
+use cases::{LONGEST_S, NO_MOTION, doubts::of_excitation};
 use strong_motion::{
     Notice, ReadOptions, Recording, Source, TableColumn, Units, VerticalFrom,
     excitation::Excitation,
@@ -64,10 +64,55 @@ impl RecordOptions {
                 recording.notices().iter().for_each(terminal::stderr);
                 Excitation::whole(recording.into_record())
             }
-            None if self.reading() != ReadOptions::default() => return Err(self.no_file()),
-            None => default().map_err(Into::into)?,
+            None => {
+                let own = default().map_err(Into::into)?;
+                if self.reading() == ReadOptions::default() { own } else { self.read_again(own)? }
+            }
         };
         Ok(self.scaled(asked))
+    }
+
+    /// The same; what is to be looked at again of another motion than the own one is told.
+    pub fn checked_excitation<E: Into<CommandError>>(
+        &self,
+        default: impl FnOnce() -> Result<Excitation, E>,
+    ) -> Result<Excitation, CommandError> {
+        let excitation = self.excitation(default)?;
+        if !self.is_own() || self.duration.is_some() {
+            for doubt in of_excitation(&excitation) {
+                terminal::stderr(format_args!("CHECK {}; {}", doubt.message(), doubt.remedy()));
+            }
+        }
+        Ok(excitation)
+    }
+
+    /// Whether the ground motion is the own one, of whatever length.
+    pub fn is_own(&self) -> bool {
+        self.record.is_none() && self.scale.is_none() && self.reading() == ReadOptions::default()
+    }
+
+    /// The own record from its file, with what the options say of it.
+    fn read_again(&self, own: Excitation) -> Result<Excitation, CommandError> {
+        let Source::File { path, units, component, baseline, .. } = &own.record.source else {
+            return Err(self.no_file());
+        };
+        let said = self.reading();
+        let options = ReadOptions {
+            dt: said.dt.or(Some(own.record.dt)),
+            units: said.units.or(Some(*units)),
+            component: said.component.or_else(|| component.clone()),
+            baseline: said.baseline || *baseline,
+            vertical: said.vertical,
+        };
+        let recording = Recording::read(path, &options)?;
+        recording.notices().iter().for_each(terminal::stderr);
+        let record = recording.into_record();
+        let kept = own.record.vertical.as_ref().filter(|_| options.vertical.is_none());
+        let record = match kept.map(|up| up.as_record(own.record.dt)) {
+            Some(up) => record.with_vertical(up)?,
+            None => record,
+        };
+        Ok(Excitation { record, ..own })
     }
 
     /// The same of a case, which was read with [`RecordOptions::of_case`]: what is said of a file

@@ -16,10 +16,9 @@ use run_folder::{
     elastic::{deck, stepped_deck as stepped_deck_of},
     folder::of_one_run,
     models::{DECKS, motion_files},
-    place::file_in,
-    place::write_file,
+    place::{file_in, not_an_input, write_file},
 };
-use strong_motion::Record;
+use strong_motion::{Record, Source};
 
 /// Options of `tune export`.
 #[derive(Debug, Args)]
@@ -52,12 +51,12 @@ pub fn run(o: &ExportOptions) -> Result<(), CommandError> {
     match ElasticParameters::read(&o.parameters)? {
         Some(parameters) => {
             let out = out(parameters.program.as_ref().is_some_and(ProgramRow::is_etabs))?;
-            elastic(o, &parameters)?.write(o.format, &out)
+            elastic(o, &parameters)?.write(o, &out)
         }
         None => {
             let parameters = Parameters::read(&o.parameters)?;
             let out = out(parameters.program.as_ref().is_some_and(ProgramRow::is_etabs))?;
-            rigid(o, parameters)?.write(o.format, &out)
+            rigid(o, parameters)?.write(o, &out)
         }
     }
 }
@@ -79,8 +78,13 @@ struct ExportedDeck {
 
 impl ExportedDeck {
     /// Write it, and beside a sheet the ground motion that it names.
-    fn write(&self, format: DeckFormat, out: &Path) -> Result<(), CommandError> {
-        let beside = match format {
+    fn write(&self, o: &ExportOptions, out: &Path) -> Result<(), CommandError> {
+        let record = match &self.record.source {
+            Source::File { path, .. } => Some(path.as_path()),
+            _ => None,
+        };
+        not_an_input(out, [Some(o.parameters.as_path()), record].into_iter().flatten())?;
+        let beside = match o.format {
             DeckFormat::Sap2000Sheet => motion_files(&self.record),
             _ => Vec::new(),
         };
@@ -152,15 +156,10 @@ pub(super) fn predictable_to(
     parameters: &Parameters,
     record: &Record,
 ) -> Option<f64> {
-    match is_own(options) && options.duration.is_none() {
+    match options.is_own() && options.duration.is_none() {
         true => report::predictable_to(&parameters.findings),
         false => parameters::predictability::predictable_to(parameters, record),
     }
-}
-
-/// Whether the ground motion is that of the run.
-fn is_own(options: &RecordOptions) -> bool {
-    options.record.is_none() && options.scale.is_none() && options.vertical.is_none()
 }
 
 /// The text of a deck, and what to say of it besides the record.
@@ -174,14 +173,14 @@ fn elastic(
     o: &ExportOptions,
     parameters: &ElasticParameters,
 ) -> Result<ExportedDeck, CommandError> {
-    let excitation = o.record.excitation(|| parameters.excitation(&o.parameters))?;
+    let excitation = o.record.checked_excitation(|| parameters.excitation(&o.parameters))?;
     let record = excitation.used()?;
     let assembled = parameters.assembled().map_err(|e| CommandError::Result(e.to_string()))?;
     match (stepping(o, parameters.program.as_ref())?, &parameters.program) {
         (Stepping::Events, _) => {}
         (stepping, Some(program)) => {
             let program = CornerProgram::new(&assembled, program, stepping)?;
-            let until = report::predictable_to(&parameters.findings).filter(|_| is_own(&o.record));
+            let until = report::predictable_to(&parameters.findings).filter(|_| o.record.is_own());
             let deck = stepped_deck_of(&assembled, &program, &record, o.format, until)?;
             let (text, line) = told(deck, excitation.line());
             return Ok(ExportedDeck { text, record, line });
@@ -229,6 +228,6 @@ fn with_record(
     options: &RecordOptions,
 ) -> Result<(Parameters, Record, String), CommandError> {
     parameters.structure = with_inertia(&parameters.structure);
-    let excitation = options.excitation(|| parameters.excitation(file))?;
+    let excitation = options.checked_excitation(|| parameters.excitation(file))?;
     Ok((parameters, excitation.used()?, excitation.line()))
 }

@@ -16,7 +16,10 @@ use rocking::{
     overturning::samples_until,
     structure::Structure,
 };
-use run_folder::{place::file_in, place::write_file, tables::csv_row};
+use run_folder::{
+    place::{file_in, not_an_input, write_file},
+    tables::csv_row,
+};
 
 /// Options of `tune housner`.
 #[derive(Debug, Args)]
@@ -47,6 +50,10 @@ pub fn run(o: &HousnerOptions) -> Result<(), CommandError> {
     };
     let excitation = o.record.excitation_of_case(&default.excitation, &default.notices)?;
     let out = o.out.as_deref().map(|path| file_in(path, "housner.csv")).transpose()?;
+    if let Some(path) = &out {
+        let inputs = [o.case.as_ref(), o.record.record.as_ref()].into_iter().flatten();
+        not_an_input(path, inputs.map(PathBuf::as_path))?;
+    }
     let record = excitation.used()?;
     let body = structure.body::<f64>();
     let options = housner::RockingOptions {

@@ -16,7 +16,7 @@ use report::{
 };
 use run_folder::{
     folder::of_one_run,
-    place::{file_in, write_file},
+    place::{file_in, not_an_input, write_file},
     tables::{Instants, history_csv, members_csv},
 };
 
@@ -53,6 +53,10 @@ pub fn run(o: &SimulateOptions) -> Result<(), CommandError> {
     let file =
         |path: &Option<PathBuf>, name| path.as_deref().map(|path| file_in(path, name)).transpose();
     let (out, forces) = (file(&o.out, "history.csv")?, file(&o.forces, "members.csv")?);
+    for path in out.iter().chain(&forces) {
+        let inputs = [Some(&o.parameters), o.record.record.as_ref()].into_iter().flatten();
+        not_an_input(path, inputs.map(PathBuf::as_path))?;
+    }
     let friction = o.ground.friction()?;
     let both = both(&body, e, &parameters.chains(), &parameters.members(), &record);
     if let Some(path) = &out {

@@ -87,7 +87,7 @@ fn export(more: &[&str], words: &[&str]) {
 }
 
 fn verify(more: &[&str], words: &[&str]) {
-    let args = [&["verify", "--parameters", "p.json", "--duration", "0.5"], more].concat();
+    let args = [&["verify", "--parameters", "p.json", "--duration", "3"], more].concat();
     refuses(&[("p.json", &parameters(1e6))], &args, words);
 }
 

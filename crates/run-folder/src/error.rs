@@ -33,6 +33,14 @@ pub enum FolderError {
         /// The folder.
         path: String,
     },
+    /// A file that the command reads, or a case.
+    #[error("{path}: is {what} and would be lost; name another file with --out")]
+    Input {
+        /// The file.
+        path: String,
+        /// What it is.
+        what: &'static str,
+    },
     /// A device or a pipe.
     #[error("{path}: is a device or a pipe, which a file would replace; name a file with --out")]
     NotRegular {

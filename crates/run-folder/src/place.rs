@@ -59,6 +59,25 @@ pub fn file_in(path: &Path, name: &str) -> Result<PathBuf, FolderError> {
     Ok(path)
 }
 
+/// Whether a file to write is none of those that a command reads, and no case file, which
+/// [`write_file`] would replace.
+///
+/// # Errors
+/// It is one.
+pub fn not_an_input<'a>(
+    path: &Path,
+    inputs: impl IntoIterator<Item = &'a Path>,
+) -> Result<(), FolderError> {
+    let Ok(there) = path.canonicalize() else { return Ok(()) };
+    let same = |input: &Path| input.canonicalize().is_ok_and(|input| input == there);
+    let what = match inputs.into_iter().any(same) {
+        true => "a file that this command reads",
+        false if there.extension().is_some_and(|extension| extension == "toml") => "a case file",
+        false => return Ok(()),
+    };
+    Err(FolderError::Input { path: path.display().to_string(), what })
+}
+
 /// Write a whole file or nothing. Its folder is made, and rid of what killed runs left in it.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), FolderError> {
     let folder = whole_file::folder(path);

@@ -36,7 +36,7 @@ pub fn run(
     parameters: &ElasticParameters,
     program: &Program,
 ) -> Result<(), CommandError> {
-    let excitation = o.record.excitation(|| parameters.excitation(&o.parameters))?;
+    let excitation = o.record.checked_excitation(|| parameters.excitation(&o.parameters))?;
     let record = excitation.used()?;
     check_folder(&o.out)?;
     check_accuracy(o.accuracy)?;
