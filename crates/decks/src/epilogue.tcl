@@ -9,7 +9,7 @@ set vertical {
 }
 
 # ---------------------------------------------------------------- history
-# The motion through the record: rows of t and what `sample` tells.
+# The motion through the record, or as far as steps converge: rows of t and what `sample` tells.
 proc follow {feet} {
     global recordDt samples landing stepsPerSample rise accuracy
     # TRBDF2 is L-stable: Newmark (1/2, 1/4) and HHT fail on springs this stiff, Newmark with damping spoils the answer.
@@ -18,7 +18,8 @@ proc follow {feet} {
     set rows [list [concat 0.0 [sample]]]
     for {set i 1} {$i < $samples} {incr i} {
         if {![steps::advance [expr {$i * $recordDt}]]} {
-            stop "no convergence at [getTime] s, in steps of $steps::allowed s: [steps::report]"
+            puts stderr "no convergence at [getTime] s, in steps of $steps::allowed s: the history ends"
+            break
         }
         lappend rows [concat [expr {$i * $recordDt}] [sample]]
         if {floor($i * $recordDt) > floor(($i - 1) * $recordDt)} {
@@ -41,6 +42,9 @@ foreach row $rows {
     puts $out [join $texts ,]
 }
 close $out
+if {[llength $rows] < $compared} {
+    stop "no convergence after [lindex $rows end 0] s: [steps::report]"
+}
 
 # ---------------------------------------------------------------- check
 # 1 % of the largest motion in that direction, or of what is none to speak of
@@ -60,7 +64,7 @@ foreach {name column start} [checked] {
     array set scale [list "$name max" $largest "$name min" $largest]
 }
 set good 1
-puts [format "OpenSees, %g s: %s" [expr {($samples - 1) * $recordDt}] [steps::report]]
+puts [format "OpenSees, %g s: %s" [lindex $rows end 0] [steps::report]]
 if {$steps::refused > 0} { puts "  OpenSees' messages of failed convergence are those of the pairs repeated" }
 if {$compared < $samples} {
     puts [format "  compared to %g s: beyond, the motion cannot be predicted" [expr {($compared - 1) * $recordDt}]]
