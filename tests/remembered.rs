@@ -108,6 +108,13 @@ fn a_sheet_brings_its_ground_motion_and_leaves_that_of_another() {
     for file in ["sap2000_by_hand.txt", "ground_motion.txt"] {
         assert_eq!(read(&format!("sheets/{file}")), read(&format!("out/decks/{file}")), "{file}");
     }
+    // tables under their own names, too
+    for (stepping, file) in [("events", "springs.csv"), ("even", "springs_even.csv")] {
+        let table = ["export", "--parameters", "out/parameters.json", "--format", "csv"];
+        let rest = ["--stepping", stepping, "--out", "sheets/"];
+        tune(dir.path(), &[&table[..], &rest].concat());
+        assert_eq!(read(&format!("sheets/{file}")), read(&format!("out/decks/{file}")), "{file}");
+    }
     let other = [&sheet[..], &["--scale", "0.5", "--out", "sheets/half.txt"]].concat();
     let output =
         Command::cargo_bin("tune").unwrap().current_dir(&dir).args(other).output().unwrap();

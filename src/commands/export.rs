@@ -11,11 +11,10 @@ use decks::{
 };
 use frames::fem::{ElasticAnalysis, ElasticStart};
 use parameters::{Parameters, elastic::ElasticParameters, program::ProgramRow};
-use report::screen::{ETABS_SHEET, SHEET};
 use run_folder::{
     elastic::{deck, stepped_deck as stepped_deck_of},
     folder::of_one_run,
-    models::{DECKS, motion_files},
+    models::{deck_name, motion_files},
     place::{file_in, not_an_input, write_file},
 };
 use strong_motion::{Record, Source};
@@ -45,26 +44,29 @@ pub struct ExportOptions {
 }
 
 pub fn run(o: &ExportOptions) -> Result<(), CommandError> {
-    let out = |etabs: bool| file_in(&o.out, usual_name(o.format, etabs));
     check_accuracy(o.accuracy)?;
     of_one_run(&o.parameters)?;
     match ElasticParameters::read(&o.parameters)? {
         Some(parameters) => {
-            let out = out(parameters.program.as_ref().is_some_and(ProgramRow::is_etabs))?;
-            elastic(o, &parameters)?.write(o, &out)
+            let (stepping, out) = destination(o, parameters.program.as_ref())?;
+            elastic(o, &parameters, stepping)?.write(o, &out)
         }
         None => {
             let parameters = Parameters::read(&o.parameters)?;
-            let out = out(parameters.program.as_ref().is_some_and(ProgramRow::is_etabs))?;
-            rigid(o, parameters)?.write(o, &out)
+            let (stepping, out) = destination(o, parameters.program.as_ref())?;
+            rigid(o, parameters, stepping)?.write(o, &out)
         }
     }
 }
 
-/// The name that a deck has in the folder of a run.
-fn usual_name(format: DeckFormat, etabs: bool) -> &'static str {
-    let deck = DECKS.iter().find(|(_, of)| *of == format).map(|(name, _)| *name);
-    deck.unwrap_or(if etabs { ETABS_SHEET } else { SHEET })
+/// How the deck steps, and its file: in a folder under the name that a run gives it.
+fn destination<U>(
+    o: &ExportOptions,
+    program: Option<&ProgramRow<U>>,
+) -> Result<(Stepping, PathBuf), CommandError> {
+    let stepping = stepping(o, program)?;
+    let etabs = program.is_some_and(ProgramRow::is_etabs);
+    Ok((stepping, file_in(&o.out, deck_name(o.format, stepping, etabs))?))
 }
 
 /// A deck, and what goes with it.
@@ -112,9 +114,13 @@ impl ExportedDeck {
 }
 
 /// The deck of a rigid body.
-fn rigid(o: &ExportOptions, parameters: Parameters) -> Result<ExportedDeck, CommandError> {
+fn rigid(
+    o: &ExportOptions,
+    parameters: Parameters,
+    stepping: Stepping,
+) -> Result<ExportedDeck, CommandError> {
     let (parameters, record, line) = with_record(parameters, &o.parameters, &o.record)?;
-    let (text, line) = match stepping(o, parameters.program.as_ref())? {
+    let (text, line) = match stepping {
         Stepping::Events => (deck_of(&parameters, &record, o.format, o.accuracy)?, line),
         stepping => {
             let until = predictable_to(&o.record, &parameters, &record);
@@ -172,11 +178,12 @@ fn told(deck: SteppedDeck, record: String) -> (String, String) {
 fn elastic(
     o: &ExportOptions,
     parameters: &ElasticParameters,
+    stepping: Stepping,
 ) -> Result<ExportedDeck, CommandError> {
     let excitation = o.record.checked_excitation(|| parameters.excitation(&o.parameters))?;
     let record = excitation.used()?;
     let assembled = parameters.assembled().map_err(|e| CommandError::Result(e.to_string()))?;
-    match (stepping(o, parameters.program.as_ref())?, &parameters.program) {
+    match (stepping, &parameters.program) {
         (Stepping::Events, _) => {}
         (stepping, Some(program)) => {
             let program = CornerProgram::new(&assembled, program, stepping)?;

@@ -84,7 +84,7 @@ impl ElasticDeck<'_> {
             DeckFormat::OpenSeesTcl => self.fill(&TCL, include_str!("elastic_deck.tcl"))?,
             DeckFormat::Sap2000 => sap2000::tables(&self.sap2000(format)?),
             DeckFormat::Sap2000Sheet => sap2000::sheet(&self.sap2000(format)?),
-            DeckFormat::Csv => plain::csv(&self.places()),
+            DeckFormat::Csv => plain::csv(self.even()?.as_ref(), &self.places()),
             DeckFormat::Markdown => {
                 plain::markdown(self.title, self.even()?.as_ref(), &self.places())
             }

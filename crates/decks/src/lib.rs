@@ -35,6 +35,7 @@ pub use corner_program::CornerProgram;
 use dynamics::fem::History;
 pub use elastic::ElasticDeck;
 pub use expectation::{DeckExpectation, foretold_rigid};
+use files::message::significant;
 use model::DeckModel;
 pub use model::equal_steps;
 pub use model::{ACCURACY, with_inertia};
@@ -312,9 +313,11 @@ fn export_model(model: &DeckModel, format: DeckFormat) -> Result<String, ExportE
         DeckFormat::OpenSeesTcl => opensees::tcl(model)?,
         DeckFormat::Sap2000 => sap2000::tables(&sap2000::SapModel::rigid(model)),
         DeckFormat::Sap2000Sheet => sap2000::sheet(&sap2000::SapModel::rigid(model)),
-        DeckFormat::Csv => plain::csv(&model.places()),
+        DeckFormat::Csv => plain::csv(model.even.as_ref(), &model.places()),
         DeckFormat::Markdown => {
-            plain::markdown(&model.title(), model.even.as_ref(), &model.places())
+            let inertia = significant(model.inertia, 4);
+            let title = format!("{}; the model's I_cg = {inertia} kg m2", model.title());
+            plain::markdown(&title, model.even.as_ref(), &model.places())
         }
     })
 }

@@ -21,11 +21,19 @@ fn rows(places: &[NamedSprings]) -> impl Iterator<Item = [String; 6]> {
     })
 }
 
-/// One line a unit, SI units in the header.
-pub(super) fn csv(places: &[NamedSprings]) -> String {
-    let mut text = String::from("foot,direction,k1_n_per_m,k2_n_per_m,m2_kg,c_ns_per_m\n");
+/// One line a unit, SI units in the header; last the steps that the springs are for.
+pub(super) fn csv(even: Option<&EvenSteps>, places: &[NamedSprings]) -> String {
+    let mut text =
+        String::from("foot,direction,k1_n_per_m,k2_n_per_m,m2_kg,c_ns_per_m,for_steps\n");
+    let steps = match even {
+        None => "shortened towards touches".into(),
+        Some(EvenSteps { step, integrator, touches, .. }) => {
+            let substeps = if *touches > 1 { " with substeps at touches" } else { "" };
+            format!("{}{substeps} by {integrator}", quantity(*step, "s"))
+        }
+    };
     for row in rows(places) {
-        text.push_str(&(row.join(",") + "\n"));
+        text.push_str(&format!("{},{steps}\n", row.join(",")));
     }
     text
 }
@@ -33,7 +41,8 @@ pub(super) fn csv(places: &[NamedSprings]) -> String {
 /// What springs are for whose steps follow touches.
 const FOR_OPENSEES: &str = "These springs are for the OpenSees deck of the same run, which \
     shortens its steps towards touches (TRBDF2).\nA program with steps of one size needs others: \
-    `program` in parameters.json, or sap2000_by_hand.txt.\n\n";
+    those of \
+    `tune export --stepping even`, in a run's folder springs_even.md.\n\n";
 
 /// A table to read and to paste, with the unit's picture and what the springs are
 /// for: the steps of one size, if they are for such.

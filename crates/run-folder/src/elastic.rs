@@ -278,15 +278,8 @@ impl ElasticRun {
         ];
         let program = self.parameters.program.as_ref();
         let decks = models::decks(program, |format| self.deck(format))?;
-        let of_steps = |row| {
-            let deck = |format| self.stepped(row, format);
-            Ok::<_, FolderError>(models::even_decks(Some(row), deck)?.and(models::sheet(
-                Some(row),
-                &self.record,
-                deck,
-            )?))
-        };
-        let decks = decks.and(program.map_or_else(|| Ok(RunTexts::default()), of_steps)?);
+        let even = |row| models::even_decks(row, &self.record, |format| self.stepped(row, format));
+        let decks = decks.and(program.map_or_else(|| Ok(RunTexts::default()), even)?);
         let mut files: Vec<_> =
             files.into_iter().map(|(name, text)| (name.to_string(), text)).collect();
         files.extend(decks.files);

@@ -1,6 +1,6 @@
 //! The decks of a run.
 
-use decks::{DeckFormat, ExportError, SteppedDeck, sap_function};
+use decks::{DeckFormat, ExportError, SteppedDeck, Stepping, sap_function};
 use parameters::program::ProgramRow;
 use report::screen::{ETABS_SHEET, EVEN_DECK, SHEET};
 use strong_motion::Record;
@@ -10,18 +10,35 @@ use crate::{FolderError, texts::RunTexts};
 /// SAP2000's tables.
 pub(crate) const SAP2000: &str = "model_sap2000.s2k";
 
-/// The decks of `tune run`: name in the folder, format.
-pub const DECKS: [(&str, DeckFormat); 5] = [
-    ("model_openseespy.py", DeckFormat::OpenSeesPy),
-    ("model_opensees.tcl", DeckFormat::OpenSeesTcl),
-    (SAP2000, DeckFormat::Sap2000),
-    ("springs.csv", DeckFormat::Csv),
-    ("springs.md", DeckFormat::Markdown),
+/// The decks of `tune run` on springs for steps that follow touches.
+const DECKS: [DeckFormat; 5] = [
+    DeckFormat::OpenSeesPy,
+    DeckFormat::OpenSeesTcl,
+    DeckFormat::Sap2000,
+    DeckFormat::Csv,
+    DeckFormat::Markdown,
 ];
 
-/// Those for OpenSees with steps of one size, where the run was asked for its springs.
-const EVEN_DECKS: [(&str, DeckFormat); 2] =
-    [(EVEN_DECK, DeckFormat::OpenSeesPy), ("model_even.tcl", DeckFormat::OpenSeesTcl)];
+/// The name of a deck in the folder of a run.
+pub fn deck_name(format: DeckFormat, stepping: Stepping, etabs: bool) -> &'static str {
+    match (format, stepping) {
+        (DeckFormat::Sap2000, _) => SAP2000,
+        (DeckFormat::Sap2000Sheet, _) if etabs => ETABS_SHEET,
+        (DeckFormat::Sap2000Sheet, _) => SHEET,
+        (DeckFormat::OpenSeesPy, Stepping::Events) => "model_openseespy.py",
+        (DeckFormat::OpenSeesPy, Stepping::Even) => EVEN_DECK,
+        (DeckFormat::OpenSeesPy, Stepping::Touches) => "model_touches.py",
+        (DeckFormat::OpenSeesTcl, Stepping::Events) => "model_opensees.tcl",
+        (DeckFormat::OpenSeesTcl, Stepping::Even) => "model_even.tcl",
+        (DeckFormat::OpenSeesTcl, Stepping::Touches) => "model_touches.tcl",
+        (DeckFormat::Csv, Stepping::Events) => "springs.csv",
+        (DeckFormat::Csv, Stepping::Even) => "springs_even.csv",
+        (DeckFormat::Csv, Stepping::Touches) => "springs_touches.csv",
+        (DeckFormat::Markdown, Stepping::Events) => "springs.md",
+        (DeckFormat::Markdown, Stepping::Even) => "springs_even.md",
+        (DeckFormat::Markdown, Stepping::Touches) => "springs_touches.md",
+    }
+}
 
 /// Every deck; what is to be said of them: left out, with the reason, or ended early. Where springs
 /// are asked for another program, there are no tables for SAP2000: ETABS does not read them, and
@@ -31,42 +48,35 @@ pub(crate) fn decks<U>(
     text: impl Fn(DeckFormat) -> Result<(String, Option<String>), ExportError>,
 ) -> Result<RunTexts, FolderError> {
     let another = program.is_some_and(|program| !program.in_sap2000());
-    let written = |(_, format): &(&str, DeckFormat)| !(another && *format == DeckFormat::Sap2000);
+    let written = |format: &DeckFormat| !(another && *format == DeckFormat::Sap2000);
     let decks: Vec<_> = DECKS.into_iter().filter(written).collect();
-    gathered(&decks, |_, format| text(format))
+    gathered(&decks, |format| deck_name(format, Stepping::Events, false), |_, format| text(format))
 }
 
-/// The decks for OpenSees with steps of one size; none for SAP2000 and ETABS.
+/// What goes with a program's steps of one size: the tables of its springs; for OpenSees its decks;
+/// for SAP2000 and ETABS the sheet, and the ground motion that it names.
 pub(crate) fn even_decks<U>(
-    program: Option<&ProgramRow<U>>,
-    deck: impl Fn(DeckFormat) -> Result<SteppedDeck, ExportError>,
-) -> Result<RunTexts, FolderError> {
-    match program.is_some_and(ProgramRow::in_opensees) {
-        true => gathered(&EVEN_DECKS, |name, format| Ok(deck(format)?.told(name))),
-        false => Ok(RunTexts::default()),
-    }
-}
-
-/// The sheet for SAP2000 or ETABS, on springs for the program's steps, and the ground motion that
-/// it names; none for another program.
-pub(crate) fn sheet<U>(
-    program: Option<&ProgramRow<U>>,
+    program: &ProgramRow<U>,
     record: &Record,
     deck: impl Fn(DeckFormat) -> Result<SteppedDeck, ExportError>,
 ) -> Result<RunTexts, FolderError> {
-    if !program.is_some_and(ProgramRow::is_csi) {
-        return Ok(RunTexts::default());
+    let name = |format| deck_name(format, Stepping::Even, program.is_etabs());
+    let told = |name: &str, format| Ok(deck(format)?.told(name));
+    // of what the tables and the sheet have not, they tell themselves
+    let silent = |_: &str, format| Ok((deck(format)?.text, None));
+    let mut texts = match program.in_opensees() {
+        true => gathered(&[DeckFormat::OpenSeesPy, DeckFormat::OpenSeesTcl], name, told)?,
+        false => RunTexts::default(),
+    };
+    let sheet: &[_] = if program.is_csi() { &[DeckFormat::Sap2000Sheet] } else { &[] };
+    let sheet = gathered(sheet, name, silent)?.files;
+    if !sheet.is_empty() {
+        let motions = motion_files(record).into_iter();
+        texts.files.extend(motions.map(|(name, text)| (format!("decks/{name}"), text)));
     }
-    let name = if program.is_some_and(ProgramRow::is_etabs) { ETABS_SHEET } else { SHEET };
-    let texts =
-        gathered(&[(name, DeckFormat::Sap2000Sheet)], |_, format| Ok((deck(format)?.text, None)))?;
-    let mut files = texts.files;
-    if !files.is_empty() {
-        let beside = motion_files(record).into_iter();
-        files.extend(beside.map(|(name, text)| (format!("decks/{name}"), text)));
-    }
-    // of what the tables have not they tell themselves
-    Ok(RunTexts { files, left_out: Vec::new() })
+    texts.files.extend(sheet);
+    texts.files.extend(gathered(&[DeckFormat::Csv, DeckFormat::Markdown], name, silent)?.files);
+    Ok(texts)
 }
 
 /// The ground motion that a sheet names: files beside it, name and text.
@@ -77,11 +87,13 @@ pub fn motion_files(record: &Record) -> Vec<(&'static str, String)> {
 }
 
 fn gathered(
-    decks: &[(&str, DeckFormat)],
+    decks: &[DeckFormat],
+    name: impl Fn(DeckFormat) -> &'static str,
     text: impl Fn(&str, DeckFormat) -> Result<(String, Option<String>), ExportError>,
 ) -> Result<RunTexts, FolderError> {
     let mut texts = RunTexts::default();
-    for &(name, format) in decks {
+    for &format in decks {
+        let name = name(format);
         match text(name, format) {
             // said, not fatal: the other decks are of use
             Err(

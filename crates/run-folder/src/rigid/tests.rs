@@ -123,6 +123,11 @@ fn a_program_that_is_asked_for_has_its_sheet() {
         assert!(find(other).is_none());
         assert_eq!(find("model_sap2000.s2k").is_some(), name == "SAP2000");
         let (_, sheet_text) = find(sheet).unwrap();
+        // the tables of its springs, beside those for steps that follow touches
+        let k1 = run.parameters.program.as_ref().unwrap().units.vertical.k1_n_per_m;
+        let holds = |table: &str| find(table).unwrap().1.matches(&format!("{k1:.16e}")).count();
+        assert_eq!(["springs_even.csv", "springs_even.md", "springs.csv"].map(holds), [2, 2, 0]);
+        assert!(find("springs_even.csv").unwrap().1.contains(",1 ms by hht:-0.333"));
         // El Centro begins at -0.063 m/s2, its function at 0
         let (_, motion) = find("ground_motion.txt").unwrap();
         let begin: Vec<&str> = motion.lines().take(2).collect();
