@@ -1,5 +1,5 @@
-//! The model for other programs: decks for OpenSees (Python and Tcl), tables for SAP2000, and k1,
-//! k2, m2, c for everyone else.
+//! The model for other programs: decks for OpenSees (Python and Tcl), and k1, k2, m2, c for
+//! everyone else.
 //!
 //! ```sh
 //! cargo run --release --example export -- decks       # a folder; one in the temporary folder unless given
@@ -23,7 +23,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for (name, format) in [
         ("model.py", DeckFormat::OpenSeesPy),
         ("model.tcl", DeckFormat::OpenSeesTcl),
-        ("model.s2k", DeckFormat::Sap2000),
         ("springs.csv", DeckFormat::Csv),
         ("springs.md", DeckFormat::Markdown),
     ] {

@@ -138,20 +138,17 @@ fn stepping<U>(
     o: &ExportOptions,
     program: Option<&ProgramRow<U>>,
 ) -> Result<Stepping, ExportError> {
-    let stepping = match (o.stepping, program) {
-        (Some(stepping), _) => stepping,
+    match (o.stepping, program) {
+        (Some(stepping), _) => Ok(stepping),
         (None, Some(program)) if o.format.is_sap2000() => match program.is_csi() {
-            true => Stepping::Even,
+            true => Ok(Stepping::Even),
             false => {
                 let integrator = program.integrator.clone();
-                return Err(ExportError::AnotherProgram { integrator });
+                Err(ExportError::AnotherProgram { integrator })
             }
         },
-        _ => Stepping::Events,
-    };
-    match (o.format, stepping) {
-        (DeckFormat::Sap2000Sheet, Stepping::Events) => Err(ExportError::EventsInSheet),
-        _ => Ok(stepping),
+        (None, None) if o.format.is_sap2000() => Err(ExportError::NoProgram),
+        _ => Ok(Stepping::Events),
     }
 }
 

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use super::{
     CornerProgram, DeckFormat, ExportError,
     language::{Language, PYTHON, TCL, record_note},
-    model::{STEPS_PER_PERIOD, digits, whole},
+    model::digits,
     plain::{self, NamedSprings},
     printable_title, sap2000,
     stepping::EvenSteps,
@@ -94,11 +94,11 @@ impl ElasticDeck<'_> {
     /// The model for SAP2000.
     fn sap2000(&self, format: DeckFormat) -> Result<sap2000::SapModel<'_>, ExportError> {
         self.without_members(format)?;
-        let even = self.even()?;
-        if even.is_some_and(|even| even.touches > 1) {
+        let even = self.even()?.ok_or(ExportError::EventsInTables)?;
+        if even.touches > 1 {
             return Err(ExportError::TouchesInTables);
         }
-        even.iter().try_for_each(EvenSteps::in_tables)?;
+        even.in_tables()?;
         Ok(sap2000::SapModel::elastic(self, even))
     }
 
@@ -138,11 +138,6 @@ impl ElasticDeck<'_> {
         let from = if k == 1 { self.settled() } else { 0.0 };
         let compared = self.top.1.iter().take(self.compared);
         compared.map(|at| sign * (at[k] - from)).fold(f64::NEG_INFINITY, f64::max) * sign
-    }
-
-    /// Steps per sample for a program that takes all its steps alike, 40 to a period of what lands.
-    pub(super) fn even_steps(&self) -> usize {
-        whole(self.record.dt / (TAU * self.landing() / STEPS_PER_PERIOD))
     }
 
     /// Time of the last sample compared (s).

@@ -37,7 +37,6 @@ pub use elastic::ElasticDeck;
 pub use expectation::{DeckExpectation, foretold_rigid};
 use files::message::significant;
 use model::DeckModel;
-pub use model::equal_steps;
 pub use model::{ACCURACY, with_inertia};
 pub use output::OutputSteps;
 use parameters::{
@@ -223,10 +222,10 @@ pub enum ExportError {
     )]
     AnotherProgram { integrator: String },
     #[error(
-        "export: the sheet is for steps of one size, on springs for these; give --stepping even, \
-            and tune run --for sap2000 and --step"
+        "export: SAP2000 and ETABS take no steps that follow touches; give --stepping even, and \
+            tune run --for sap2000 and --step"
     )]
-    EventsInSheet,
+    EventsInTables,
     #[error(
         "export: the springs for steps of one size are not made for a {name}; leave it out, or \
             --stepping events"
@@ -255,7 +254,8 @@ pub enum ExportError {
 /// body without rotational inertia gets the least that other programs need (1e-5 m R^2).
 ///
 /// # Errors
-/// A member or a vertical motion that the format does not have; numbers that are not finite.
+/// A member or a vertical motion that the format does not have; numbers that are not finite;
+/// SAP2000's formats, which are for steps of one size: [`stepped_deck`].
 pub fn deck(
     parameters: &Parameters,
     record: &Record,
@@ -311,8 +311,8 @@ fn export_model(model: &DeckModel, format: DeckFormat) -> Result<String, ExportE
     Ok(match format {
         DeckFormat::OpenSeesPy => opensees::python(model)?,
         DeckFormat::OpenSeesTcl => opensees::tcl(model)?,
-        DeckFormat::Sap2000 => sap2000::tables(&sap2000::SapModel::rigid(model)),
-        DeckFormat::Sap2000Sheet => sap2000::sheet(&sap2000::SapModel::rigid(model)),
+        DeckFormat::Sap2000 => sap2000::tables(&sap2000::SapModel::rigid(model)?),
+        DeckFormat::Sap2000Sheet => sap2000::sheet(&sap2000::SapModel::rigid(model)?),
         DeckFormat::Csv => plain::csv(model.even.as_ref(), &model.places()),
         DeckFormat::Markdown => {
             let inertia = significant(model.inertia, 4);

@@ -23,11 +23,6 @@ pub(super) const LEG_STIFFNESS: f64 = 4.0;
 /// What a history's error is to be, unless one asks otherwise.
 pub const ACCURACY: f64 = 0.002;
 
-/// For a program that takes all its steps alike: per period of the stiffest Omega_n.
-pub(super) const STEPS_PER_PERIOD: f64 = 40.0;
-/// p times the time step, at most, where all steps are alike.
-const STEP_BY_ROCKING: f64 = 1e-4;
-
 /// Newton's displacement tolerance over R: some twenty times what rounding leaves of it with legs
 /// of [`LEG_STIFFNESS`].
 const TOLERANCE: f64 = 2e-14;
@@ -41,27 +36,6 @@ const TIGHTEST: f64 = 8.0;
 const SMALL_MOTION: f64 = 0.01;
 /// Steps per sample where steps follow from the accuracy: a pair, ended by every sample.
 pub(super) const A_PAIR: usize = 2;
-
-/// For a program that takes all its steps alike, 1/(40 Omega_n (Hz)) and 1e-4/p.
-fn even_steps(parameters: &Parameters, dt: f64) -> usize {
-    let body = parameters.structure.body::<f64>();
-    let chains = parameters.chains();
-    let omega = (chains.vertical.k1.max(chains.horizontal.k1) / body.mass).sqrt();
-    whole(
-        dt / (std::f64::consts::TAU / (STEPS_PER_PERIOD * omega))
-            .min(STEP_BY_ROCKING / body.p_squared().sqrt()),
-    )
-}
-
-/// How many equal steps a deck for such a program takes to the record's end.
-pub fn equal_steps(parameters: &Parameters, record: &Record) -> usize {
-    record.len().saturating_sub(1).saturating_mul(even_steps(parameters, record.dt))
-}
-
-/// Rounded up, but a ratio that is whole but for rounding stays it.
-pub(super) fn whole(ratio: f64) -> usize {
-    ((ratio - 1e-9).ceil() as usize).max(1)
-}
 
 /// The structure as decks hold it: a body without rotational inertia gets `SMALL_INERTIA`. Simulate
 /// this one to compare.
@@ -89,8 +63,6 @@ pub(super) struct DeckModel<'a> {
     pub landing: f64,
     /// Rise of a foot from which on its motion counts (m).
     pub rise: f64,
-    /// Steps per sample for a program that takes all its steps alike.
-    pub even_steps: usize,
     /// Settings of steps of one size, in place of those that follow touches.
     pub even: Option<EvenSteps>,
     /// Largest and least displacement by Housner's equation, where it is compared (m).
@@ -150,7 +122,6 @@ impl<'a> DeckModel<'a> {
             accuracy,
             landing: (body.mass / v.k1).sqrt(),
             rise: SMALL_MOTION * 2.0 * body.half_width * (body.half_width / body.height).atan(),
-            even_steps: even_steps(parameters, record.dt),
             even: None,
             housner: None,
             record,

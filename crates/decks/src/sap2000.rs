@@ -52,7 +52,11 @@ $     FOOT_GAP to the FOOT links: its horizontal spring then also acts on a lift
 $     wrong by the foot's travel times k1; use it for small rocking only.
 $  2. GeoNonLin of both cases must read 'P-Delta plus Large Displacements': check under Define >
 $     Load Cases.
-@STEPS@
+$  3. The springs are for the load case's step and integrator. Set under Nonlinear Parameters:
+$     substeps between DTMax and DTMin, no iterations with constant stiffness, Newton-Raphson
+$     iterations and relative tolerance as in the table: an emulation of such steps loses histories
+$     with a tighter tolerance or with constant stiffness. No line search: LSPerIter, the most of an
+$     iteration, is 0; the dialog must read Use Line Search: No.
 $  4. The mass source must read Element Self Mass and Additional Mass, no load patterns: the
 $     materials' mass and weight per volume are 0.
 $  5. The words for the isolator (LinkType), large displacements (GeoNonLin) and ground acceleration
@@ -60,26 +64,11 @@ $     (LoadType) differ between versions: if the import log names one, set it in
 $     FOOT links or of the load cases.
 ";
 
-/// Of springs for the program's steps.
-const FOR_ITS_STEPS: &str = "\
-$  3. The springs are for the load case's step and integrator. Set under Nonlinear Parameters:
-$     substeps between DTMax and DTMin, no iterations with constant stiffness, Newton-Raphson
-$     iterations and relative tolerance as in the table: an emulation of such steps loses histories
-$     with a tighter tolerance or with constant stiffness. No line search: LSPerIter, the most of an
-$     iteration, is 0; the dialog must read Use Line Search: No.";
-/// Of springs for steps that follow touches.
-const NOT_FOR_ITS_STEPS: &str = "\
-$  3. The integrator is Hilber-Hughes-Taylor with alpha = -1/3, the most damped SAP2000 offers;
-$     springs that were tuned for steps that follow touches are not for its steps.";
-
 /// The whole file.
 pub(super) fn tables(parts: &SapModel) -> String {
-    let steps = if parts.even.is_some() { FOR_ITS_STEPS } else { NOT_FOR_ITS_STEPS };
-    let notes = NOTES.replace("@STEPS@", steps);
-    let why = parts.even.and_then(|even| even.not_to_be_used);
-    let why = why.map_or(String::new(), |why| format!("$ {why}.\n"));
+    let why = parts.even.not_to_be_used.map_or(String::new(), |why| format!("$ {why}.\n"));
     let (title, of_model) = (&parts.title, &parts.notes);
-    let mut text = format!("$ {title}\n{why}{notes}{of_model}{}\n", parts.expected());
+    let mut text = format!("$ {title}\n{why}{NOTES}{of_model}{}\n", parts.expected());
     for table in
         [control(), geometry(parts), links(parts), loads(parts), cases(parts), record(parts)]
             .into_iter()

@@ -81,6 +81,8 @@ pub(crate) struct EvenSteps {
     /// What they were measured to err on the motions that they are judged on, and on
     /// earthquake-like ones.
     pub errors: [Option<ProgramErrors>; 2],
+    /// Whether nothing is left to be measured on earthquake-like ones.
+    pub judged_on_earthquakes: bool,
     /// Whether the program is ETABS.
     pub etabs: bool,
 }
@@ -106,6 +108,7 @@ impl EvenSteps {
             adds_inertia: false,
             not_to_be_used: row.not_to_be_used(),
             errors: [row.expected.synthetic, row.expected.earthquakes],
+            judged_on_earthquakes: row.judged_on_earthquakes(),
             etabs: row.is_etabs(),
         })
     }
@@ -143,7 +146,12 @@ impl EvenSteps {
             Some(format!("{} (median){most} on {histories}{on}{lost}", percent((*median)?)))
         });
         let told = told.collect::<Vec<_>>().join("; ");
-        (!told.is_empty()).then(|| format!("such steps err in the largest displacement by {told}"))
+        let unjudged = match self.judged_on_earthquakes {
+            true => "",
+            false => "; not judged on earthquake-like ones: tune run --for with this --step is",
+        };
+        (!told.is_empty())
+            .then(|| format!("such steps err in the largest displacement by {told}{unjudged}"))
     }
 
     /// Where in a step forces are taken: 1 + alpha of HHT, else its end.

@@ -309,6 +309,12 @@ impl<U> ProgramRow<U> {
         on_record.or((median > USELESS).then_some(on_motions))
     }
 
+    /// Whether they are judged on earthquake-like motions, or are of an elastic structure, whose
+    /// are judged on all that they have.
+    pub fn judged_on_earthquakes(&self) -> bool {
+        self.asked || self.expected.earthquakes.is_some() || self.expected.stance.is_none()
+    }
+
     /// What springs that are of use err on earthquake-like motions, if that is much.
     pub fn errs_on_earthquakes(&self) -> Option<ProgramErrors> {
         let errors = self.expected.earthquakes.filter(|_| self.not_to_be_used().is_none())?;

@@ -224,9 +224,6 @@ pub struct Run {
     pub accuracy: Option<AccuracyReport>,
     /// The answer first, then by weight.
     pub findings: Vec<FiledFinding>,
-    /// Steps that a program with one fixed step would need for these springs; none without a
-    /// record.
-    pub fixed_steps: Option<usize>,
     /// Whether there is a deck for SAP2000.
     pub sap2000: bool,
     /// What the report has besides.

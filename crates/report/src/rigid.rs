@@ -15,7 +15,7 @@ use super::{
     unit_of,
 };
 use cases::{Case, Objective, doubts::Doubt};
-use decks::{equal_steps, stepped_history};
+use decks::stepped_history;
 use dynamics::spring::{Design, Springs};
 use files::message::{percent, quantity, significant};
 use fixed_steps::FixedStepHistory;
@@ -118,7 +118,7 @@ impl RigidRun {
         let mut sections = sections(&parameters);
         sections.extend(self.sections());
         let record = &self.job.record;
-        let (steps, sap2000) = (equal_steps(&parameters, record), parameters.members().is_none());
+        let sap2000 = parameters.members().is_none();
         let alone = alone(parameters);
         let mut facts = alone.taken.facts.clone();
         facts.extend(self.job.rocking.uplifts.first().map(|uplift| super::first_lift(uplift.time)));
@@ -132,7 +132,6 @@ impl RigidRun {
                 ..taken(&self.case.structure, self.case.restitution)
             },
             friction_needed: Some(self.report.friction_needed()),
-            fixed_steps: Some(steps),
             sap2000,
             sections,
             ..alone
@@ -281,7 +280,6 @@ fn alone(parameters: Parameters) -> Run {
         program: ProgramReport::of_rigid(&parameters),
         accuracy,
         findings,
-        fixed_steps: None,
         sap2000: false,
         sections: sections(&parameters),
         parameters: FiledParameters::Rigid(Box::new(parameters)),

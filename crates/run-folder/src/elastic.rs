@@ -5,8 +5,7 @@ use std::path::Path;
 use crate::{
     FolderError,
     folder::{Folder, identity},
-    models::{self, SAP2000},
-    pictures as rigid_pictures,
+    models, pictures as rigid_pictures,
     rigid::{Output, write_report},
     tables::{Instants, csv_row},
     texts::RunTexts,
@@ -277,7 +276,7 @@ impl ElasticRun {
             ("members_envelopes.csv", demands::csv(self, Instants::Envelopes)),
         ];
         let program = self.parameters.program.as_ref();
-        let decks = models::decks(program, |format| self.deck(format))?;
+        let decks = models::decks(|format| self.deck(format))?;
         let even = |row| models::even_decks(row, &self.record, |format| self.stepped(row, format));
         let decks = decks.and(program.map_or_else(|| Ok(RunTexts::default()), even)?);
         let mut files: Vec<_> =
@@ -309,16 +308,11 @@ impl ElasticRun {
         ElasticParameters { record, ..self.parameters.clone() }
     }
 
-    /// A deck, and a line for the user if it ends before the record.
-    fn deck(&self, format: DeckFormat) -> Result<(String, Option<String>), ExportError> {
-        // SAP2000 steps alike: the springs for that
-        let program = self.parameters.program.as_ref().filter(|row| row.is_csi());
-        if let Some(program) = program.filter(|_| format == DeckFormat::Sap2000) {
-            return Ok(self.stepped(program, format)?.told(SAP2000));
-        }
+    /// A deck whose steps follow touches.
+    fn deck(&self, format: DeckFormat) -> Result<String, ExportError> {
         let corners = &self.tuned.springs.corners;
         let fem = &self.answer.histories.fem;
-        Ok((deck(&self.assembled, corners, &self.record, fem, (format, ACCURACY))?, None))
+        deck(&self.assembled, corners, &self.record, fem, (format, ACCURACY))
     }
 
     /// `history.csv`: rotation and drift of every base in the reference and on the springs, uplift

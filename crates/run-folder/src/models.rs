@@ -8,16 +8,11 @@ use strong_motion::Record;
 use crate::{FolderError, texts::RunTexts};
 
 /// SAP2000's tables.
-pub(crate) const SAP2000: &str = "model_sap2000.s2k";
+const SAP2000: &str = "model_sap2000.s2k";
 
 /// The decks of `tune run` on springs for steps that follow touches.
-const DECKS: [DeckFormat; 5] = [
-    DeckFormat::OpenSeesPy,
-    DeckFormat::OpenSeesTcl,
-    DeckFormat::Sap2000,
-    DeckFormat::Csv,
-    DeckFormat::Markdown,
-];
+const DECKS: [DeckFormat; 4] =
+    [DeckFormat::OpenSeesPy, DeckFormat::OpenSeesTcl, DeckFormat::Csv, DeckFormat::Markdown];
 
 /// The name of a deck in the folder of a run.
 pub fn deck_name(format: DeckFormat, stepping: Stepping, etabs: bool) -> &'static str {
@@ -40,21 +35,17 @@ pub fn deck_name(format: DeckFormat, stepping: Stepping, etabs: bool) -> &'stati
     }
 }
 
-/// Every deck; what is to be said of them: left out, with the reason, or ended early. Where springs
-/// are asked for another program, there are no tables for SAP2000: ETABS does not read them, and
-/// SAP2000 takes no steps that follow touches.
-pub(crate) fn decks<U>(
-    program: Option<&ProgramRow<U>>,
-    text: impl Fn(DeckFormat) -> Result<(String, Option<String>), ExportError>,
+/// The decks on springs for steps that follow touches; what is to be said of them: left out, with
+/// the reason, or ended early.
+pub(crate) fn decks(
+    text: impl Fn(DeckFormat) -> Result<String, ExportError>,
 ) -> Result<RunTexts, FolderError> {
-    let another = program.is_some_and(|program| !program.in_sap2000());
-    let written = |format: &DeckFormat| !(another && *format == DeckFormat::Sap2000);
-    let decks: Vec<_> = DECKS.into_iter().filter(written).collect();
-    gathered(&decks, |format| deck_name(format, Stepping::Events, false), |_, format| text(format))
+    let name = |format| deck_name(format, Stepping::Events, false);
+    gathered(&DECKS, name, |_, format| Ok((text(format)?, None)))
 }
 
 /// What goes with a program's steps of one size: the tables of its springs; for OpenSees its decks;
-/// for SAP2000 and ETABS the sheet, and the ground motion that it names.
+/// for SAP2000 its tables; for it and ETABS the sheet, and the ground motion that it names.
 pub(crate) fn even_decks<U>(
     program: &ProgramRow<U>,
     record: &Record,
@@ -62,12 +53,16 @@ pub(crate) fn even_decks<U>(
 ) -> Result<RunTexts, FolderError> {
     let name = |format| deck_name(format, Stepping::Even, program.is_etabs());
     let told = |name: &str, format| Ok(deck(format)?.told(name));
-    // of what the tables and the sheet have not, they tell themselves
+    // of what these have not, the others tell
     let silent = |_: &str, format| Ok((deck(format)?.text, None));
-    let mut texts = match program.in_opensees() {
-        true => gathered(&[DeckFormat::OpenSeesPy, DeckFormat::OpenSeesTcl], name, told)?,
-        false => RunTexts::default(),
+    let models: &[_] = if program.in_opensees() {
+        &[DeckFormat::OpenSeesPy, DeckFormat::OpenSeesTcl]
+    } else if program.in_sap2000() {
+        &[DeckFormat::Sap2000]
+    } else {
+        &[]
     };
+    let mut texts = gathered(models, name, told)?;
     let sheet: &[_] = if program.is_csi() { &[DeckFormat::Sap2000Sheet] } else { &[] };
     let sheet = gathered(sheet, name, silent)?.files;
     if !sheet.is_empty() {

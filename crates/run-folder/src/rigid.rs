@@ -20,7 +20,7 @@ use report::{
 use crate::{
     FolderError,
     folder::{Folder, identity},
-    models::{self, SAP2000},
+    models,
     pictures::{self, Pictures},
     place::write_file,
     tables::{Instants, history_csv, members_csv},
@@ -185,15 +185,7 @@ fn run_decks(parameters: &Parameters, rigid: &RigidRun) -> Result<RunTexts, Fold
         Some(history) => decks::even_deck(&parameters, record, format, history, until),
         None => Err(ExportError::NoProgram),
     };
-    // SAP2000 steps alike: the springs for that, if there are some
-    let for_its_steps = |format: DeckFormat| {
-        let program = parameters.program.as_ref().filter(|_| format == DeckFormat::Sap2000)?;
-        program.is_csi().then(|| Ok(stepped(format)?.told(SAP2000)))
-    };
-    let all = models::decks(parameters.program.as_ref(), |format| {
-        let plain = || Ok((decks::export(&parameters, record, &expected, format)?, None));
-        for_its_steps(format).unwrap_or_else(plain)
-    })?;
+    let all = models::decks(|format| decks::export(&parameters, record, &expected, format))?;
     let even = |program| models::even_decks(program, record, stepped);
     let even = parameters.program.as_ref().map_or_else(|| Ok(RunTexts::default()), even)?;
     Ok(all.and(even))

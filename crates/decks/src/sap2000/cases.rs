@@ -34,7 +34,7 @@ pub(super) fn loads(parts: &SapModel) -> Vec<SapTable> {
 
 pub(super) fn cases(parts: &SapModel) -> Vec<SapTable> {
     let output = parts.output();
-    let settings = CaseSettings::of(parts.even);
+    let settings = CaseSettings::of(&parts.even);
     vec![
         SapTable::new("LOAD CASE DEFINITIONS")
             .row(&[
@@ -121,7 +121,7 @@ fn motions(parts: &SapModel) -> SapTable {
 /// How the program steps.
 pub(super) struct CaseSettings {
     integrator: Integrator,
-    /// Substeps (s); 0: as the program has them.
+    /// Substeps (s).
     pub(super) longest: String,
     pub(super) shortest: String,
     pub(super) constant: usize,
@@ -130,25 +130,14 @@ pub(super) struct CaseSettings {
 }
 
 impl CaseSettings {
-    /// On springs for its steps; else as a public generator of such tables has them.
-    pub(super) fn of(even: Option<EvenSteps>) -> Self {
-        match even {
-            Some(even) => Self {
-                integrator: even.integrator,
-                longest: digits(even.step),
-                shortest: digits(even.step / even.substeps as f64),
-                constant: 0,
-                newton: even.newton,
-                tolerance: even.unbalance.map_or("0.0001".into(), digits),
-            },
-            None => Self {
-                integrator: Integrator::HHT_MOST,
-                longest: "0".into(),
-                shortest: "0".into(),
-                constant: 10,
-                newton: 40,
-                tolerance: "0.0001".into(),
-            },
+    pub(super) fn of(even: &EvenSteps) -> Self {
+        Self {
+            integrator: even.integrator,
+            longest: digits(even.step),
+            shortest: digits(even.step / even.substeps as f64),
+            constant: 0,
+            newton: even.newton,
+            tolerance: even.unbalance.map_or("0.0001".into(), digits),
         }
     }
 

@@ -16,12 +16,6 @@ $     rotation of the whole structure: compare a free rocking with and without i
 $     beam and footing are stiff frames ARM.
 ";
 
-/// Of springs for steps that follow touches.
-const SHORT_STEPS: &str = "\
-$  8. All steps are alike, and short beside a landing: these springs are not for programs with
-$     fixed time steps.
-";
-
 /// Tables' parts in the making.
 struct Build<'a, 'd> {
     deck: &'a ElasticDeck<'d>,
@@ -80,7 +74,7 @@ impl Build<'_, '_> {
 
 impl<'a> SapModel<'a> {
     /// Of an elastic structure without members of its own: joint i + 1 is node i.
-    pub(crate) fn elastic(deck: &ElasticDeck<'a>, even: Option<EvenSteps>) -> Self {
+    pub(crate) fn elastic(deck: &ElasticDeck<'a>, even: EvenSteps) -> Self {
         let mass = deck.frame.mass_matrix();
         let of = |at: Option<usize>| at.map_or(0.0, |k| mass[(k, k)]);
         let nodes = 0..deck.layout.nodes.len();
@@ -110,7 +104,7 @@ impl<'a> SapModel<'a> {
         let (top, _) = deck.top;
         Self {
             title: printable_title(deck.title),
-            notes: if even.is_some() { NOTES.into() } else { format!("{NOTES}{SHORT_STEPS}") },
+            notes: NOTES.into(),
             feet: stands.iter().enumerate().map(foot).collect(),
             units: deck.springs.iter().enumerate().map(unit).collect(),
             watched: top + 1,
@@ -123,7 +117,6 @@ impl<'a> SapModel<'a> {
             until: (deck.compared < deck.samples).then(|| deck.compared_s()),
             even,
             housner: None,
-            even_steps: deck.even_steps(),
             joints: build.joints,
             sections: build.sections,
             bars: build.bars,

@@ -2,7 +2,7 @@
 //! links, a record.
 
 use crate::{
-    OutputSteps,
+    ExportError, OutputSteps,
     model::{DeckModel, digits},
     stepping::EvenSteps,
 };
@@ -99,26 +99,29 @@ pub(crate) struct SapModel<'a> {
     /// Of a link (m).
     pub link: f64,
     pub record: &'a Record,
-    /// Samples followed, and steps per sample.
+    /// Samples followed.
     pub samples: usize,
     /// Up to when it can be predicted, if not to its end: peaks are to then (s).
     pub until: Option<f64>,
-    pub even_steps: usize,
     /// Settings of the program whose steps the springs are for.
-    pub even: Option<EvenSteps>,
+    pub even: EvenSteps,
     /// Largest and least U1 by Housner's equation, up to then (m).
     pub housner: Option<(f64, f64)>,
 }
 
 impl<'a> SapModel<'a> {
     /// Of a rigid body: joint 3 the mass, on legs from joints 1 and 2.
-    pub(crate) fn rigid(model: &DeckModel<'a>) -> Self {
+    ///
+    /// # Errors
+    /// Springs for steps that follow touches.
+    pub(crate) fn rigid(model: &DeckModel<'a>) -> Result<Self, ExportError> {
+        let even = model.even.ok_or(ExportError::EventsInTables)?;
         let body = model.body();
         let (b, h) = (body.half_width, body.height);
         let foot = |tag: usize, x: f64| Joint { tag, place: [x, 0.0], mass: 0.0, inertia: 0.0 };
         let mass = Joint { tag: 3, place: [0.0, h], mass: body.mass, inertia: model.inertia };
         let e = &model.expected;
-        Self {
+        Ok(Self {
             title: model.title(),
             notes: String::new(),
             joints: vec![foot(1, -b), foot(2, b), mass],
@@ -141,10 +144,9 @@ impl<'a> SapModel<'a> {
             record: model.record,
             samples: e.samples,
             until: (e.compared < e.samples).then(|| model.compared_s()),
-            even_steps: model.even_steps,
-            even: model.even,
+            even,
             housner: model.housner,
-        }
+        })
     }
 
     /// Where a joint of the structure is (m).
@@ -152,33 +154,21 @@ impl<'a> SapModel<'a> {
         self.joints.iter().find(|joint| joint.tag == tag).map_or([0.0; 2], |joint| joint.place)
     }
 
-    /// What the load case of the record shows: on springs for the program's steps a whole number of
-    /// these at a time, else every step.
+    /// What the load case of the record shows: a whole number of the program's steps at a time.
     pub(crate) fn output(&self) -> OutputSteps {
-        let (dt, n) = (self.record.dt, self.even_steps);
-        match self.even {
-            Some(even) => OutputSteps::of(even.step, dt, self.samples),
-            None => {
-                let count = self.samples.saturating_sub(1) * n;
-                OutputSteps { count, step_s: dt / n as f64 }
-            }
-        }
+        OutputSteps::of(self.even.step, self.record.dt, self.samples)
     }
 
     /// What is expected, as a comment.
     pub(crate) fn expected(&self) -> String {
         let [u, v] = self.peaks;
-        let by = match self.even {
-            Some(_) => "by an emulation of these steps",
-            None => "within 1 % of our own history",
-        };
         let until = self.until.map_or(String::new(), |until| {
             format!(", to {until} s (beyond, the motion cannot be predicted)")
         });
-        let errors = self.even.and_then(|even| even.errors());
-        let errors = errors.map_or(String::new(), |errors| format!("$ Measured: {errors}.\n"));
+        let errors =
+            self.even.errors().map_or(String::new(), |errors| format!("$ Measured: {errors}.\n"));
         format!(
-            "$ Expected at joint {}, m, {by}{until}: settled U3 {}; U1 {} to {}; U3 above settled \
+            "$ Expected at joint {}, m, by an emulation of these steps{until}: settled U3 {}; U1 {} to {}; U3 above settled \
                 {} to {}\n{errors}",
             self.watched,
             digits(self.settled),

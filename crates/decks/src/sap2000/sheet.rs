@@ -15,16 +15,12 @@ const COLUMN: usize = 13;
 
 /// The sheet.
 pub(crate) fn sheet(parts: &SapModel) -> String {
-    let program = match parts.even {
-        Some(even) if even.etabs => "ETABS",
-        Some(_) => "SAP2000",
-        None => "SAP2000 or ETABS",
-    };
+    let program = if parts.even.etabs { "ETABS" } else { "SAP2000" };
     let mut text = format!("{}\nTo type into {program}. Units: kN, m, t, s.\n", parts.title);
-    if let Some(why) = parts.even.and_then(|even| even.not_to_be_used) {
+    if let Some(why) = parts.even.not_to_be_used {
         text += &format!("{why}.\n");
     }
-    if parts.even.is_some_and(|even| even.etabs) {
+    if parts.even.etabs {
         text += &etabs::words(parts);
     }
     for (number, part) in [
@@ -178,7 +174,7 @@ fn weight(parts: &SapModel) -> String {
 }
 
 fn history(parts: &SapModel) -> String {
-    let settings = CaseSettings::of(parts.even);
+    let settings = CaseSettings::of(&parts.even);
     let (output, dt) = (parts.output(), parts.record.dt);
     let (followed, whole) = (parts.samples.saturating_sub(1), parts.record.len().saturating_sub(1));
     let multiple = match output.step_s == dt {

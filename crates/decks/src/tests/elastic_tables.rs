@@ -35,7 +35,8 @@ fn springs(corners: usize) -> Vec<Springs<Chain>> {
 
 fn deck(model: &Assembled, record: &Record) -> Result<String, ExportError> {
     let springs = springs(model.frame.places().len());
-    deck_of(model, record, (&springs, None), DeckFormat::Sap2000)
+    let row = ProgramRow { integrator: "hht:-0.3333333333333333".into(), ..program_row(0.001) };
+    deck_of(model, record, (&springs, Some(&CornerProgram::even(&row))), DeckFormat::Sap2000)
 }
 
 fn deck_of(
@@ -223,6 +224,9 @@ fn substeps_at_touches_have_springs_of_their_own_and_no_tables() {
     assert!(tcl.contains("set touches 20\n") && !tcl.contains('@'));
     let error = of(&touches, DeckFormat::Sap2000).unwrap_err().to_string();
     assert!(error.contains("no loop"), "{error}");
+    let springs = even.row.units.chains();
+    let events = deck_of(&model, &record, (&springs, None), DeckFormat::Sap2000);
+    assert!(matches!(events, Err(ExportError::EventsInTables)));
     row.units.springs.clear();
     let error = CornerProgram::new(&model, &row, Stepping::Touches).unwrap_err().to_string();
     assert!(error.contains("no springs"), "{error}");

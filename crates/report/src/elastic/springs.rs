@@ -109,7 +109,6 @@ pub(super) fn alone(parameters: ElasticParameters) -> Run {
             .as_ref()
             .map(|a| accuracy(a, parameters.on_record.as_ref())),
         findings,
-        fixed_steps: None,
         sap2000: false,
         sections: program
             .iter()

@@ -75,6 +75,7 @@ pub(super) fn errors<U>(
         format!("this record: gives up at {} s, {then}; ", significant(s, 3))
     });
     let top = top.filter(|_| ends.is_empty());
+    let unjudged = !row.judged_on_earthquakes();
     let fewest = words == ErrorWords::Fewest;
     let here = top.map_or(nothing(), |top| here(top, (sensitive, until), fewest));
     if fewest {
@@ -84,6 +85,10 @@ pub(super) fn errors<U>(
             peaks.to_string()
         };
         let told = match errors.peak[0] {
+            // the history's error gives way
+            Some(_) if unjudged => {
+                format!("{peaks} {median} (median), {ninety} (90 %); not judged on earthquakes")
+            }
             Some(_) => format!("{peaks} {median} (median), {ninety} (90 %){history}"),
             None => format!("most {name} are lost"),
         };
@@ -96,9 +101,6 @@ pub(super) fn errors<U>(
         Some(_) => format!("{peaks} within {median} (median), {ninety} (90 %){on}{history}"),
         None => format!("most {name} are lost"),
     };
-    // a rigid body's alone: others are judged on what they have
-    let unjudged =
-        !row.asked && row.expected.earthquakes.is_none() && row.expected.stance.is_some();
     let again = match row.name.as_deref().filter(|_| unjudged) {
         Some(key) => format!("; not judged on earthquakes: run again with --for {key}"),
         None => nothing(),

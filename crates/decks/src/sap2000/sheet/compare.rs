@@ -29,7 +29,7 @@ pub(super) fn expected(parts: &SapModel) -> String {
     }
     text +=
         &format!("   these steps (emulated):  {}, U3 at most {} above that\n", range(u), mm(v.0));
-    if let Some(errors) = parts.even.and_then(|even| even.errors()) {
+    if let Some(errors) = parts.even.errors() {
         text += &format!("   Measured: {}.\n", errors.replace("; ", ";\n   "));
     }
     text + "   The screen and report.html of the run have the answer without springs, up to when a \
@@ -49,7 +49,7 @@ pub(super) fn notes(parts: &SapModel) -> String {
          has a plain\n     spring that lets go when the foot lifts. With this friction they are \
          the same but in the air.",
     ];
-    if parts.even.is_some_and(|even| even.adds_inertia) {
+    if parts.even.adds_inertia {
         all.push(
             "The inertia R2 at joint 3 belongs to these springs: such steps need some, and a point \
              mass has\n     none.",
