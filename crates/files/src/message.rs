@@ -61,6 +61,13 @@ pub fn percent(share: f64) -> String {
     }
 }
 
+/// The same of a difference, with a plus where it is a number above zero.
+pub fn signed_percent(share: f64) -> String {
+    let text = percent(share);
+    let sign = if share > 0.0 && text.starts_with(|c: char| c.is_ascii_digit()) { "+" } else { "" };
+    format!("{sign}{text}")
+}
+
 /// A text of at most so many letters: a longer one loses its middle.
 pub fn shortened(text: &str, most: usize) -> String {
     let letters: Vec<char> = text.chars().collect();

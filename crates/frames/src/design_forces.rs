@@ -280,7 +280,7 @@ pub struct OtherMotion {
     pub forces: Vec<(ForceKind, f64)>,
 }
 
-/// A structure on given springs through another record.
+/// A structure on given springs through another record; nothing where its history ends early.
 ///
 /// # Errors
 /// The structure does not stand.
@@ -288,8 +288,11 @@ pub fn through(
     assembled: &Assembled,
     springs: &[Springs<Chain>],
     record: &Record,
-) -> Result<OtherMotion, EquilibriumError> {
+) -> Result<Option<OtherMotion>, EquilibriumError> {
     let history = check::follow(&assembled.structure, &assembled.frame, springs, record)?;
+    if history.outcome.ends_early().is_some() {
+        return Ok(None);
+    }
     let peaks = ForcePeaks::of(&history, Cutoff::of(&assembled.structure).as_ref(), f64::INFINITY);
     let forces = ForceKind::ALL
         .into_iter()
@@ -300,7 +303,7 @@ pub fn through(
         HistoryOutcome::Overturned { time } => Some(time),
         _ => None,
     };
-    Ok(OtherMotion { top_displacement: moved.displacement, overturns, forces })
+    Ok(Some(OtherMotion { top_displacement: moved.displacement, overturns, forces }))
 }
 
 /// Parts of a record's time step whose means hold what a structure's cutoffs keep.

@@ -240,6 +240,9 @@ impl ProgramRow<CornerUnits> {
 /// Error of the largest displacement above which springs are of no use: in the median of motions,
 /// or on the run's record.
 pub const USELESS: f64 = 0.1;
+/// The same in the median of earthquake-like motions, in steps that are not too long: the whole
+/// peak.
+const NO_PEAK: f64 = 1.0;
 /// A difference of integrators' alpha that is rounding: users write hht:-0.333.
 const SAME_ALPHA: f64 = 1e-3;
 
@@ -286,11 +289,13 @@ impl<U> ProgramRow<U> {
 
     /// What is wrong with them, if they are of no use: on the set of motions where they err most,
     /// or on the record where it can be predicted and errs more. Earthquake-like motions count in
-    /// steps that are too long by the law of the floor: in shorter ones the springs' sway errs
-    /// there, at any step.
+    /// steps that are too long by the law of the floor, and where peaks err by more than they are:
+    /// in shorter steps the springs' sway errs there, at any step.
     fn fault(&self) -> Option<ProgramFault> {
         let ProgramExpected { synthetic, earthquakes, floor, .. } = self.expected;
-        let earthquakes = earthquakes.filter(|_| synthetic.is_none() || floor > USELESS);
+        let no_peak = |errors: &ProgramErrors| errors.peak[0].is_none_or(|median| median > NO_PEAK);
+        let counts = |e: &ProgramErrors| synthetic.is_none() || floor > USELESS || no_peak(e);
+        let earthquakes = earthquakes.filter(counts);
         let suites = [(synthetic, false), (earthquakes, true)];
         let suites = suites.into_iter().filter_map(|(errors, like)| Some((errors?, like)));
         let median = |errors: &ProgramErrors| errors.peak[0].unwrap_or(f64::INFINITY);
@@ -334,7 +339,8 @@ impl<U> ProgramRow<U> {
             ProgramFault::Lost { .. } => ProgramAdvice::AnotherStep,
             ProgramFault::OnRecord { .. } if !too_long => ProgramAdvice::AnotherStep,
             // what springs' sway errs on earthquakes does not fall with the step
-            ProgramFault::Peaks { earthquakes: true, .. } => step(USELESS),
+            ProgramFault::Peaks { earthquakes: true, .. } if too_long => step(USELESS),
+            ProgramFault::Peaks { earthquakes: true, .. } => ProgramAdvice::FollowTouches,
             ProgramFault::Peaks { median: error, .. }
             | ProgramFault::OnRecord { top: error }
             | ProgramFault::TooLong { floor: error } => step(error.abs()),

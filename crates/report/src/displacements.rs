@@ -83,11 +83,12 @@ pub fn peak_table(run: &Run) -> Option<Table> {
         true => "largest (* not predictable)",
         false => "largest",
     };
-    let on_springs = match pair.reference_ends_s {
-        Some(_) => "on springs, to the end",
-        None => "on springs",
+    let on_springs = match (pair.reference_ends_s, pair.springs_end_s) {
+        (Some(_), _) => "on springs, to the end".into(),
+        (None, Some(end)) => format!("on springs to {} s", significant(end, 3)),
+        (None, None) => "on springs".to_string(),
     };
-    let mut head = vec![largest.to_string(), reference, on_springs.into(), "difference".into()];
+    let mut head = vec![largest.to_string(), reference, on_springs, "difference".into()];
     head.extend(with.map(|_| "with members".into()));
     let row = |(name, of, words, when): PeakRow| {
         let part = |peaks: &Peaks| {
@@ -102,7 +103,7 @@ pub fn peak_table(run: &Run) -> Option<Table> {
         }
         let difference = match name {
             "impacts" => String::new(),
-            _ if pair.reference_ends_s.is_some() => "-".into(),
+            _ if pair.reference_ends_s.or(pair.springs_end_s).is_some() => "-".into(),
             _ if a.abs() > ROUNDING_M && pair.reference.drift_ratio > LEAST_DRIFT => {
                 percent(b / a - 1.0)
             }
@@ -168,7 +169,10 @@ pub fn summary(run: &Run) -> Table {
         let springs = pair.with_members.unwrap_or(pair.springs);
         for (name, of, unit, when) in SUMMARY {
             let [a, b] = [&pair.reference, &springs].map(|peaks| of(peaks).map(exact));
-            let time = springs.times.as_ref().and_then(when);
+            // of a history that ends early no largest value is known
+            let b = b.filter(|_| pair.springs_end_s.is_none());
+            let timed = if pair.springs_end_s.is_some() { &pair.reference } else { &springs };
+            let time = timed.times.as_ref().and_then(when);
             let sure = time.map(|time| until.is_none_or(|until| time <= until));
             let time = time.filter(|time| time.is_finite());
             if a.or(b).is_some() {

@@ -166,11 +166,11 @@ impl ElasticParts<'_> {
         let (vertical_g, horizontal_g) = self.case.doubts().into_iter().find_map(large)?;
         let with = || {
             let record = self.case.excitation.with_vertical_left_out()?.ok()?.used().ok()?;
-            through(self.assembled, self.springs, &record).ok()
+            through(self.assembled, self.springs, &record).ok()?
         };
-        // of forces that do not hold there is nothing to compare
+        // of forces that do not hold, and of a history that ends early, there is nothing to compare
         let checked = self.answer.design.forces.iter().any(|force| force.holds);
-        let Some(with) = checked.then(with) else {
+        let Some(with) = checked.then(with).flatten() else {
             let (overturns_s, changes) = (None, Vec::new());
             return Some(Finding::VerticalLeftOut {
                 vertical_g,
@@ -180,7 +180,6 @@ impl ElasticParts<'_> {
                 checked: false,
             });
         };
-        let with = with?;
         let top = PeakChange {
             quantity: "top displacement".into(),
             unit: "m".into(),
@@ -225,10 +224,17 @@ impl ElasticParts<'_> {
                     .unwrap_or_else(|| self.assembled.structure.body().alpha().tan()),
             },
             _ => Finding::Stands {
-                share_of_overturning: on.peak_ratio_fem,
+                // a history on springs that ends early is none of the record
+                share_of_overturning: match fem.ends_early() {
+                    Some(_) => on.peak_ratio_reference,
+                    None => on.peak_ratio_fem,
+                },
                 reference_share: Some(on.peak_ratio_reference),
                 over_s: on.compared_s,
-                largest_at_s: Some(self.record.dt * largest_at(sways) as f64),
+                largest_at_s: {
+                    let of = usize::from(fem.ends_early().is_none());
+                    Some(self.record.dt * largest_at(sways, of) as f64)
+                },
                 if_feet_hold: false,
                 of_columns: matches!(self.assembled.structure, ElasticStructure::Frame(_)),
             },
@@ -249,13 +255,17 @@ impl ElasticParts<'_> {
                 ending: if why == Stop::Work { Ending::WorkBound } else { Ending::Stopped },
             });
         }
-        let (time_s, ending) = match fem {
-            HistoryOutcome::Stopped { time } => (time, Ending::Stopped),
-            HistoryOutcome::WorkBound { time } => (time, Ending::WorkBound),
-            HistoryOutcome::Unstable { time } => (time, Ending::Unstable),
-            HistoryOutcome::Completed | HistoryOutcome::Overturned { .. } => return all,
+        let ending = match fem {
+            HistoryOutcome::WorkBound { .. } => Ending::WorkBound,
+            HistoryOutcome::Unstable { .. } => Ending::Unstable,
+            _ => Ending::Stopped,
         };
-        all.push(Finding::HistoryEndsEarly { model: FindingModel::Springs, time_s, ending });
+        let early = |time_s| Finding::HistoryEndsEarly {
+            model: FindingModel::Springs,
+            time_s,
+            ending,
+        };
+        all.extend(fem.ends_early().map(early));
         all
     }
 
@@ -319,9 +329,9 @@ fn nearby(near: &Ensemble, alpha: f64) -> Finding {
     }
 }
 
-/// Sample of the largest rotation on springs.
-fn largest_at(sways: &[[Sway; 2]]) -> usize {
-    let all = sways.iter().flat_map(|[_, springs]| springs.rotation.iter().enumerate());
+/// Sample of the largest rotation, on rigid ground (0) or on springs (1).
+fn largest_at(sways: &[[Sway; 2]], k: usize) -> usize {
+    let all = sways.iter().flat_map(|pair| pair[k].rotation.iter().enumerate());
     all.max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs())).map_or(0, |(i, _)| i)
 }
 

@@ -87,6 +87,10 @@ pub struct PeakPair {
     pub reference_ends_s: Option<f64>,
     /// On springs.
     pub springs: Peaks,
+    /// When the history on them ends, if that is before the record and the reference do: its peaks
+    /// count up to then (s).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub springs_end_s: Option<f64>,
     /// On springs, with dampers, tendon or friction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub with_members: Option<Peaks>,

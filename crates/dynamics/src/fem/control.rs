@@ -69,6 +69,18 @@ pub enum HistoryOutcome {
     },
 }
 
+impl HistoryOutcome {
+    /// When it ended before its record though the body had not fallen over (s).
+    pub fn ends_early(self) -> Option<f64> {
+        match self {
+            Self::Completed | Self::Overturned { .. } => None,
+            Self::Stopped { time } | Self::WorkBound { time } | Self::Unstable { time } => {
+                Some(time)
+            }
+        }
+    }
+}
+
 /// Work done by a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Work {

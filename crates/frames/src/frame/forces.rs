@@ -26,9 +26,19 @@ impl FrameTendon {
         ([dx / length, dz / length], length)
     }
 
+    /// By how much it is longer than in the unstressed structure (m): from the difference of the
+    /// squares of both lengths. That of the lengths is rounded as these are, which is more energy
+    /// than a still structure may lose.
+    fn lengthened(&self, displacement: [f64; 2]) -> f64 {
+        let [x, z] = displacement;
+        let [dx, dz] = [0, 1].map(|k| self.anchor[k] - self.at.place[k]);
+        let lengths = self.length(displacement).1 + self.length([0.0; 2]).1;
+        (x * (x - 2.0 * dx) + z * (z - 2.0 * dz)) / lengths
+    }
+
     /// Elongation that makes its tension, from a slack length; below zero it is slack (m).
     fn elongation(&self, displacement: [f64; 2]) -> f64 {
-        self.pretension / self.stiffness + self.length(displacement).1 - self.length([0.0; 2]).1
+        self.pretension / self.stiffness + self.lengthened(displacement)
     }
 
     fn pull(&self, displacement: [f64; 2]) -> Option<TendonPull> {
@@ -39,8 +49,13 @@ impl FrameTendon {
 
     /// Above that in the unstressed structure (J).
     fn energy(&self, displacement: [f64; 2]) -> f64 {
-        let at = |u| 0.5 * self.stiffness * self.elongation(u).max(0.0).powi(2);
-        at(displacement) - at([0.0; 2])
+        let [then, now] = [[0.0; 2], displacement].map(|u| self.elongation(u).max(0.0));
+        // by how much it has changed is known better than both are
+        let change = match then > 0.0 && now > 0.0 {
+            true => self.lengthened(displacement),
+            false => now - then,
+        };
+        0.5 * self.stiffness * change * (then + now)
     }
 }
 
@@ -67,7 +82,7 @@ impl Frame {
     /// By how much every tendon is longer than in the unstressed structure (m).
     pub(crate) fn lengthened(&self, q: &[f64]) -> Vec<f64> {
         let by = |(place, tendon): &(PlaceOnNode, FrameTendon)| {
-            tendon.length(place.reach(q).place).1 - tendon.length([0.0; 2]).1
+            tendon.lengthened(place.reach(q).place)
         };
         self.tendons.iter().map(by).collect()
     }
@@ -272,5 +287,25 @@ impl Mechanics for Frame {
 
     fn kinetic(&self, _: &DVector<f64>, v: &DVector<f64>) -> f64 {
         self.kinetic_energy(v.as_slice())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::NodePoint;
+
+    /// A tendon upright over its anchor, 28 m long: lifted by a nanometre it is longer by that,
+    /// and has taken its pretension times that; a move across lengthens it by the square alone.
+    #[test]
+    fn a_tendon_that_hardly_moves_is_longer_by_what_it_moved() {
+        let at = NodePoint { node: 0, place: [0.3, 28.0] };
+        let tendon = FrameTendon { at, anchor: [0.3, 0.0], stiffness: 2e7, pretension: 2e6 };
+        let (up, across) = (1e-9, 1e-4);
+        assert!((tendon.lengthened([0.0, up]) / up - 1.0).abs() < 1e-12);
+        assert!((tendon.energy([0.0, up]) / (2e6 * up) - 1.0).abs() < 1e-8);
+        assert!((tendon.lengthened([across, 0.0]) / (across * across / 56.0) - 1.0).abs() < 1e-10);
+        // slackened by more than its elongation of 0.1 m it has lost all of its energy
+        assert!((tendon.energy([0.0, -0.2]) / -1e5 - 1.0).abs() < 1e-12);
     }
 }

@@ -86,6 +86,12 @@ fn what_errs_by_more_than_a_tenth_is_not_to_be_used() {
             ProgramFault::OnRecord { top: 0.12 },
             ProgramAdvice::AnotherStep,
         ),
+        // peaks that err by more than they are, at any step
+        (
+            with_earthquakes(row(0.05, Some(0.01)), 6.74),
+            peaks(6.74, true),
+            ProgramAdvice::FollowTouches,
+        ),
         (row(0.02, None), ProgramFault::Lost { lost: 20, motions: 24 }, ProgramAdvice::AnotherStep),
         (row(0.2, None), ProgramFault::Lost { lost: 20, motions: 24 }, step(5e-4)),
     ] {

@@ -10,7 +10,7 @@ use rocking::{motion::TimedPeak, overturning::samples_until};
 pub const SAME_IMPACT: f64 = 0.1;
 
 impl ElasticParts<'_> {
-    /// Largest displacements of both models, up to where the shorter history ends.
+    /// Largest displacements of both models, to their ends; up to where the first falls over.
     pub fn peaks(&self) -> PeakPair {
         self.peaks_to(None)
     }
@@ -25,19 +25,19 @@ impl ElasticParts<'_> {
     /// Up to `until` (s), if it is given; impacts are those of all of it.
     fn peaks_to(&self, until: Option<f64>) -> PeakPair {
         let ElasticHistories { reference, fem, sways, .. } = &self.answer.histories;
-        let n = reference.history.q.len().min(fem.q.len());
-        let n = self
-            .answer
-            .histories
-            .falls(self.assembled.structure.body().alpha())
-            .map_or(n, |falls| falls.min(n))
-            .min(samples_until(until, self.record.dt));
+        let falls = self.answer.histories.falls(self.assembled.structure.body().alpha());
+        let most = falls.unwrap_or(usize::MAX).min(samples_until(until, self.record.dt));
+        let lengths = [reference.history.q.len(), fem.q.len()].map(|n| n.min(most));
+        // one that ends early is shorter than the other, which counts to its own end
+        let early = fem.outcome.ends_early().filter(|_| lengths[1] < lengths[0]);
+        let both = lengths[0].min(lengths[1]);
+        let lengths = if early.is_some() { lengths } else { [both; 2] };
         let frame = &self.assembled.frame;
         let of = |q: &dyn Fn(usize) -> Vec<f64>, k: usize, impacts: usize| {
             let [mut top, mut rocking, mut bending] = [TimedPeak::default(); 3];
             let [mut moved, mut lifted] = [TimedPeak::default(); 2];
             let mut then = PartsOfTop::default();
-            for i in 0..n {
+            for i in 0..lengths[k] {
                 let q = q(i);
                 let now = |value: f64| TimedPeak { value, time: i as f64 * self.record.dt };
                 for (watched, pair) in self.assembled.watched.iter().zip(sways) {
@@ -92,6 +92,7 @@ impl ElasticParts<'_> {
             ),
             springs: of(&|i| fem.q[i].clone(), 1, impacts(touches, rest)),
             reference_ends_s: None,
+            springs_end_s: early,
             with_members: None,
             foretold: None,
         }

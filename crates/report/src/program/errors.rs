@@ -1,7 +1,7 @@
 //! What springs err in a program with fixed time steps, in a line and in a table.
 
 use crate::Table;
-use files::message::{percent, significant};
+use files::message::{percent, signed_percent, significant};
 use parameters::program::{ProgramErrors, ProgramRow};
 
 /// How much is told of errors.
@@ -118,13 +118,7 @@ fn here(top: f64, (sensitive, until): (bool, Option<f64>), fewest: bool) -> Stri
         (false, true) => ("this record", " (too sensitive to tell)"),
     };
     let colon = if fewest { "" } else { ":" };
-    format!("{place}{to}{colon} top {}{doubt}; ", signed(top))
-}
-
-/// A difference with its sign.
-fn signed(share: f64) -> String {
-    let sign = if share > 0.0 && !percent(share).starts_with("below") { "+" } else { "" };
-    format!("{sign}{}", percent(share))
+    format!("{place}{to}{colon} top {}{doubt}; ", signed_percent(top))
 }
 
 pub(super) fn table<U>(row: &ProgramRow<U>, motions: &str) -> Table {

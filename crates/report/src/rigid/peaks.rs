@@ -47,6 +47,7 @@ pub(super) fn peaks_to(
         ),
         reference_ends_s: ends,
         springs: springs(m, &both.fem),
+        springs_end_s: None,
         with_members: both.with.as_ref().map(|with| springs(&with.matched, &with.history)),
         foretold: None,
     }

@@ -5,7 +5,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::Finding;
-use files::message::{percent, quantity, significant};
+use files::message::{percent, quantity, signed_percent, significant};
 
 /// What is wrong with springs that are of no use in a program.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -52,6 +52,8 @@ pub enum ProgramAdvice {
     DefaultIntegrator,
     /// No law tells which step.
     AnotherStep,
+    /// No step helps.
+    FollowTouches,
 }
 
 /// Why springs are not to be used in a program, and what to do.
@@ -73,8 +75,7 @@ impl fmt::Display for ProgramFault {
                 write!(f, "peaks err by {median} in the median of {motions} {like}motions")
             }
             Self::OnRecord { top } => {
-                let sign = if *top > 0.0 { "+" } else { "" };
-                write!(f, "this record's top displacement errs by {sign}{}", percent(*top))
+                write!(f, "this record's top displacement errs by {}", signed_percent(*top))
             }
             Self::TooLong { floor } => write!(
                 f,
@@ -95,6 +96,7 @@ impl fmt::Display for ProgramAdvice {
                 write!(f, "take the default integrator (leave --integrator out)")
             }
             Self::AnotherStep => write!(f, "try another --step, longer ones too"),
+            Self::FollowTouches => write!(f, "take OpenSees' deck, whose steps follow touches"),
         }
     }
 }
