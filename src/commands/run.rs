@@ -48,8 +48,8 @@ pub struct RunOptions {
     no_record: bool,
     #[command(flatten)]
     ground: GroundOptions,
-    /// Stiffest springs allowed, as the frequency Omega_n / 2 pi of the mass on a gap spring
-    /// [default: none, or the case's]
+    /// Stiffest springs allowed where steps follow touches, as the frequency Omega_n / 2 pi of the
+    /// mass on a gap spring [default: none, or the case's]
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     max_hz: Option<f64>,
     /// Error of the history against Housner's that the stiffness is chosen for: normalised root

@@ -118,7 +118,9 @@ impl UnknownKey {
         let like = known.iter().filter(|known| is_like(&key, known));
         let like = like
             .min_by_key(|known| (!same_words(&key, known), !is_end(&key, known), distance(known)));
-        let near = weight_of(&key, &known).or(mass).or(like).cloned();
+        // weight_kN is weight_kn
+        let same = known.iter().find(|known| known.eq_ignore_ascii_case(&key));
+        let near = same.or(weight_of(&key, &known)).or(mass).or(like).cloned();
         Some(Self { key, near, known })
     }
 
@@ -213,9 +215,11 @@ mod tests {
         ] {
             assert_eq!(advice(key), format!("did you mean \"{near}\"?"), "{key}");
         }
-        let rigid = "unknown field `mass_kN`, expected one of `mass_kg`, `weight_kn`, `width_m`";
-        let weight = UnknownKey::of(rigid).unwrap().advice();
-        assert_eq!(weight, "did you mean \"weight_kn\"?");
+        for key in ["mass_kN", "weight_kN", "Weight_KN"] {
+            let known = "expected one of `mass_kg`, `weight_kn`, `width_m`";
+            let weight = UnknownKey::of(&format!("unknown field `{key}`, {known}"));
+            assert_eq!(weight.unwrap().advice(), "did you mean \"weight_kn\"?", "{key}");
+        }
         let mass = "it is a key of kind = \"pier\" or \"aframe\"; did you mean \"column_mass_kg\"?";
         assert_eq!(advice("mass_kg"), mass);
         let known = "known are height_m, width_m, column_mass_kg, ei_nm2, material";

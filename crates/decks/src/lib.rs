@@ -196,7 +196,7 @@ impl Expected {
 #[derive(Debug, Error)]
 #[allow(missing_docs)] // messages say what variants and their fields are
 pub enum ExportError {
-    #[error("export: format '{name}' is not known; give one of {known}")]
+    #[error("export: format '{name}' is not known; give one of {known} (the sheet is ETABS' too)")]
     DeckFormat { name: String, known: String },
     #[error(
         "export: {name} is {value}; give a finite number above zero (dampers and inertia may be \

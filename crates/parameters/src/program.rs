@@ -240,8 +240,7 @@ impl ProgramRow<CornerUnits> {
 /// Error of the largest displacement above which springs are of no use: in the median of motions,
 /// or on the run's record.
 pub const USELESS: f64 = 0.1;
-/// The same in the median of earthquake-like motions, in steps that are not too long: the whole
-/// peak.
+/// The same on earthquake-like motions in steps that are not too long: the whole peak.
 const NO_PEAK: f64 = 1.0;
 /// A difference of integrators' alpha that is rounding: users write hht:-0.333.
 const SAME_ALPHA: f64 = 1e-3;

@@ -44,7 +44,7 @@ fn at_top(times: &PeakTimes) -> Option<f64> {
 }
 
 /// Below this a displacement is rounding (m).
-const ROUNDING_M: f64 = 1e-12;
+const ROUNDING_M: f64 = 1e-9;
 /// Below this part of the top's displacement, too: what a part of it is told to at most.
 const ROUNDING: f64 = 1e-5;
 

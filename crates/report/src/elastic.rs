@@ -260,11 +260,8 @@ impl ElasticParts<'_> {
             HistoryOutcome::Unstable { .. } => Ending::Unstable,
             _ => Ending::Stopped,
         };
-        let early = |time_s| Finding::HistoryEndsEarly {
-            model: FindingModel::Springs,
-            time_s,
-            ending,
-        };
+        let early =
+            |time_s| Finding::HistoryEndsEarly { model: FindingModel::Springs, time_s, ending };
         all.extend(fem.ends_early().map(early));
         all
     }

@@ -178,7 +178,7 @@ fn programs(run: &Run) -> (&'static str, &'static str, String) {
                             friction out."
                     }
                 };
-                let settings = program.settings(true);
+                let settings = program.settings(true).join("; ");
                 let set_to = match settings.is_empty() {
                     true => settings,
                     false => format!("; set to {settings}"),

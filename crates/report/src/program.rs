@@ -161,14 +161,14 @@ impl ProgramReport {
     }
 
     /// For a screen: what the program is to be set to; nothing of springs that are not to be used.
-    pub(crate) fn settings(&self, room: bool) -> String {
+    pub(crate) fn settings(&self, room: bool) -> Vec<String> {
         let told =
             self.set_to.iter().filter(|s| self.usable && !s.short.is_empty() && (room || !s.spare));
         let one = |s: &ProgramSetting| match s.meant && room {
             true => format!("{} (meant so large)", s.short),
             false => s.short.clone(),
         };
-        told.map(one).collect::<Vec<_>>().join("; ")
+        told.map(one).collect()
     }
 
     /// For a report.

@@ -12,7 +12,7 @@ use super::{
     peak_table,
 };
 use files::message::{shortened, significant};
-use lines::{at_most, wrap};
+use lines::{at_most, parts_at_most, wrap};
 use warnings::{Warned, is_doubt, tell, warning_lines, warnings};
 
 /// Lines of a screen, and letters of a line.
@@ -357,7 +357,9 @@ fn next(run: &Run, written: &Written, crowding: Crowding, lines: &mut Vec<String
             lines.append(&mut told[fits.unwrap_or(told.len() - 1)]);
             let settings = program.settings(crowding.settings >= ALL_SETTINGS);
             if !settings.is_empty() {
-                at_most(crowding.settings, lines, "  set to  ", &settings);
+                let place = if written.report { "report.html" } else { "--verbose" };
+                let rest = format!("all settings: {place}");
+                parts_at_most(crowding.settings, lines, "  set to  ", &settings, &rest);
             }
             if written.decks && program.deck_of_even_steps {
                 let deck = format!("python3 {}", written.file(&format!("decks/{EVEN_DECK}")));

@@ -137,10 +137,14 @@ pub enum Finding {
     AccuracyMissed {
         asked: f64,
         capped: bool,
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        another_restitution: bool,
     },
     PeaksMissed {
         asked: f64,
         capped: bool,
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        another_restitution: bool,
     },
     AccuracyNotMeasured,
     RestitutionMissed {

@@ -106,7 +106,10 @@ pub enum RecordError {
         record_samples: usize,
         record_dt: f64,
     },
-    #[error("{record}: the time step is {dt:?} s; it must be between 1e-6 and 1 s")]
+    #[error(
+        "{record}: the time step is {dt:?} s; it must be between 1e-6 and 1 s: \
+        times are taken in s"
+    )]
     BadStep { record: String, dt: f64 },
     #[error(
         "{record}: sample {index} (counted from 0) is {value:?}; every sample must be a finite \

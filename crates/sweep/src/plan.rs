@@ -194,6 +194,17 @@ impl Plan {
             .product()
     }
 
+    /// Cells in a row that a ground motion is made or read for once.
+    pub fn cells_of_motion(&self) -> u64 {
+        let one_structure = self.motions.iter().any(SweepMotion::is_for_structure);
+        let subjects = if one_structure { 1 } else { self.subjects.len() };
+        [subjects, self.restitution_count(), self.level_count()]
+            .into_iter()
+            .map(|n| n as u64)
+            .product::<u64>()
+            .max(1)
+    }
+
     /// Cell i.
     pub(crate) fn cell(&self, index: u64) -> Cell {
         let mut rest = index;

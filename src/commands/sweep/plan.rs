@@ -106,22 +106,34 @@ pub fn run(o: &PlanOptions) -> Result<(), CommandError> {
     Ok(())
 }
 
-/// Places in a sweep at which some cells are tried, and how many: as many as go in lock-step, or
-/// one that is scanned.
+/// Places in a sweep at which cells are tried, and how many: as many as go in lock-step, or one
+/// that is scanned.
 const TRIED: (u64, u64, u64) = (3, 16, 1);
 
-/// What the whole sweep takes, by some of its cells.
+/// What the whole sweep takes, by some of its cells. A motion is made once for all of its cells,
+/// which a cell by itself and more of the same motion tell apart.
 fn tried(parts: &SweepParts, springs: Option<&SpringsTable>) -> Result<String, CommandError> {
     let (places, histories, scans) = TRIED;
-    let each = if parts.plan.kind == SweepKind::Overturning { scans } else { histories };
-    let (all, mut cells, began) = (parts.plan.cells(), 0, Instant::now());
-    for place in 0..places {
-        let from = all * place / places;
-        let to = (from + each).min(all);
+    let plan = parts.plan;
+    let (all, of_motion) = (plan.cells(), plan.cells_of_motion());
+    let most = if plan.kind == SweepKind::Overturning { scans } else { histories };
+    let seconds = |from: u64, to: u64| {
+        let began = Instant::now();
         parts.rows(from..to, springs, &|_| {})?;
-        cells += to - from;
+        Ok::<_, CommandError>(began.elapsed().as_secs_f64())
+    };
+    let (mut cells, mut motion, mut cell) = (0, 0.0, 0.0);
+    for place in 0..places {
+        let from = all * place / places / of_motion * of_motion;
+        let count = most.min(of_motion).min(all - from);
+        let one = seconds(from, from + 1)?;
+        let more = if count > 1 { seconds(from, from + count)? } else { one };
+        let each = if count > 1 { ((more - one) / (count - 1) as f64).max(0.0) } else { 0.0 };
+        (motion, cell) = (motion + (one - each).max(0.0), cell + each);
+        cells += count;
     }
-    let seconds = began.elapsed().as_secs_f64() * all as f64 / cells.max(1) as f64;
+    let motions = all.div_ceil(of_motion);
+    let seconds = (motion * motions as f64 + cell * all as f64) / places as f64;
     Ok(format!("by {cells} cells tried on one core: about {} in all", duration(seconds)))
 }
 

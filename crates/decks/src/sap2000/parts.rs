@@ -168,8 +168,8 @@ impl<'a> SapModel<'a> {
         let errors =
             self.even.errors().map_or(String::new(), |errors| format!("$ Measured: {errors}.\n"));
         format!(
-            "$ Expected at joint {}, m, by an emulation of these steps{until}: settled U3 {}; U1 {} to {}; U3 above settled \
-                {} to {}\n{errors}",
+            "$ Expected at joint {}, m, by an emulation of these steps{until}: settled U3 {}; U1 \
+                {} to {}; U3 above settled {} to {}\n{errors}",
             self.watched,
             digits(self.settled),
             digits(u.1),

@@ -81,9 +81,8 @@ impl Frame {
 
     /// By how much every tendon is longer than in the unstressed structure (m).
     pub(crate) fn lengthened(&self, q: &[f64]) -> Vec<f64> {
-        let by = |(place, tendon): &(PlaceOnNode, FrameTendon)| {
-            tendon.lengthened(place.reach(q).place)
-        };
+        let by =
+            |(place, tendon): &(PlaceOnNode, FrameTendon)| tendon.lengthened(place.reach(q).place);
         self.tendons.iter().map(by).collect()
     }
 

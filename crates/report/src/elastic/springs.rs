@@ -29,9 +29,11 @@ pub(super) fn springs_findings(parameters: &ElasticParameters) -> Option<Finding
         }
         true => Finding::AccuracyNotMeasured,
         false if a.judged_by == Yardstick::Peaks => {
-            Finding::PeaksMissed { asked: a.accuracy, capped: false }
+            Finding::PeaksMissed { asked: a.accuracy, capped: false, another_restitution: false }
         }
-        false => Finding::AccuracyMissed { asked: a.accuracy, capped: false },
+        false => {
+            Finding::AccuracyMissed { asked: a.accuracy, capped: false, another_restitution: false }
+        }
     })
 }
 

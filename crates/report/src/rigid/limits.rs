@@ -11,13 +11,17 @@ const RESTITUTION_MISSED: f64 = 0.005;
 /// What these springs cannot do.
 pub(super) fn springs_findings(parameters: &Parameters) -> Vec<Finding> {
     let mut all = Vec::new();
+    let e = parameters.restitution();
+    let body = parameters.structure.body::<f64>();
+    let another_restitution = differs_from_housner(&body, e);
     if let Some(a) = &parameters.assessment {
+        let (asked, capped) = (a.accuracy, a.capped);
         if !a.reached {
             all.push(match a.judged_by {
                 Yardstick::Histories => {
-                    Finding::AccuracyMissed { asked: a.accuracy, capped: a.capped }
+                    Finding::AccuracyMissed { asked, capped, another_restitution }
                 }
-                Yardstick::Peaks => Finding::PeaksMissed { asked: a.accuracy, capped: a.capped },
+                Yardstick::Peaks => Finding::PeaksMissed { asked, capped, another_restitution },
             });
         } else if a.measured.record.is_none()
             && a.measured.synthetic_median.is_none()
@@ -26,8 +30,6 @@ pub(super) fn springs_findings(parameters: &Parameters) -> Vec<Finding> {
             all.push(Finding::AccuracyNotMeasured);
         }
     }
-    let e = parameters.restitution();
-    let body = parameters.structure.body::<f64>();
     let share = e / body.restitution();
     let (least, most) = ATTAINABLE;
     if !(least..=most).contains(&share) {
@@ -46,7 +48,7 @@ pub(super) fn springs_findings(parameters: &Parameters) -> Vec<Finding> {
             asked: e,
             lowest,
             highest,
-            of_equation_2: !differs_from_housner(&body, e),
+            of_equation_2: !another_restitution,
         });
     }
     all

@@ -29,6 +29,25 @@ pub(super) fn at_most(most: usize, lines: &mut Vec<String>, name: &str, text: &s
     lines.extend(all);
 }
 
+/// Parts of a list, in so many lines; where some do not fit, `rest` tells of them.
+pub(super) fn parts_at_most(
+    most: usize,
+    lines: &mut Vec<String>,
+    name: &str,
+    parts: &[String],
+    rest: &str,
+) {
+    let told = |shown: usize| {
+        let rest = (shown < parts.len()).then(|| rest.to_string());
+        let told: Vec<String> = parts[..shown].iter().cloned().chain(rest).collect();
+        let mut some = Vec::new();
+        wrap(&mut some, name, &told.join("; "));
+        some
+    };
+    let fits = (1..=parts.len()).rev().map(told).find(|some| some.len() <= most);
+    lines.extend(fits.unwrap_or_else(|| told(1)));
+}
+
 /// Text behind a name, its further lines below the text; words that do not fit a line are shortened
 /// in the middle. A number keeps its unit.
 pub(super) fn wrap(lines: &mut Vec<String>, name: &str, text: &str) {

@@ -41,6 +41,10 @@ impl Finding {
             Self::AccuracyMissed { capped: true, .. } | Self::PeaksMissed { capped: true, .. } => {
                 "raise or drop --max-hz"
             }
+            Self::AccuracyMissed { another_restitution: true, .. }
+            | Self::PeaksMissed { another_restitution: true, .. } => {
+                "leave the restitution out: springs are exact with equation 2's alone"
+            }
             Self::AccuracyMissed { .. } | Self::PeaksMissed { .. } => {
                 "ask for less, or judge the springs by many records: tune validate"
             }

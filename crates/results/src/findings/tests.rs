@@ -50,7 +50,7 @@ fn a_force_that_holds_for_a_part_of_the_record_is_told_with_what_the_whole_has()
 #[test]
 fn answers_come_first_and_faults_weigh_most() {
     assert!(Weight::Answer < Weight::Note && Weight::Warning < Weight::Fault);
-    let fault = Finding::AccuracyMissed { asked: 0.002, capped: true };
+    let fault = Finding::AccuracyMissed { asked: 0.002, capped: true, another_restitution: false };
     assert_eq!(
         (fault.weight(), fault.remedy().unwrap().as_str()),
         (Weight::Fault, "raise or drop --max-hz")
