@@ -139,6 +139,12 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_sign_stands_before_numbers_alone() {
+        let all = [0.0126, -0.00529, 21.0, 1e-7].map(signed_percent);
+        assert_eq!(all, ["+1.26 %", "-0.529 %", "more than 1000 %", "below 0.001 %"]);
+    }
+
+    #[test]
     fn long_paths_lose_their_middle() {
         assert_eq!(shortened("out/decks/model.py", 40), "out/decks/model.py");
         assert_eq!(shortened("a/very/long/way/to/a/file.json", 20), "a/very/l...file.json");

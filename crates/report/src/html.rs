@@ -42,7 +42,55 @@ pub(crate) fn pretty(text: &str) -> String {
     ];
     let text =
         LETTERS.iter().fold(text.to_string(), |text, (spelt, letter)| text.replace(spelt, letter));
-    escape(&text)
+    unbroken(&escape(&text))
+}
+
+/// Escaped text whose quantities no line's end parts: neither a number from its unit, nor a unit
+/// at a blank or a slash.
+pub(crate) fn unbroken(escaped: &str) -> String {
+    let words: Vec<&str> = escaped.split(' ').collect();
+    let (mut out, mut at): (Vec<String>, usize) = (Vec::new(), 0);
+    while let Some(rest) = words.get(at..).filter(|rest| !rest.is_empty()) {
+        let length = length_of_quantity(rest);
+        let text = rest[..length.max(1)].join(" ");
+        out.push(match length {
+            0 => text,
+            _ => format!("<span class=\"q\">{text}</span>"),
+        });
+        at += length.max(1);
+    }
+    out.join(" ")
+}
+
+/// Words of the quantity, or of the unit in brackets, that these begin with; 0 of none.
+fn length_of_quantity(words: &[&str]) -> usize {
+    let bare = |word: &str| word.trim_end_matches([',', '.', ';', ':', ')']).to_string();
+    match words {
+        [head, ..] if head.starts_with('[') && bare(head).ends_with(']') => 1,
+        // "MN m", "N s/m", "kg m2"; nothing goes on after a comma
+        [head, unit, more, ..] if is_number(head) && is_unit(unit) && is_unit(&bare(more)) => 3,
+        [head, unit, ..] if is_number(head) && is_unit(&bare(unit)) => 2,
+        _ => 0,
+    }
+}
+
+fn is_number(word: &str) -> bool {
+    let digits = word.trim_start_matches(['(', '+', '-', '−']);
+    let power = |c: char| "·⁻⁰¹²³⁴⁵⁶⁷⁸⁹".contains(c);
+    digits.starts_with(|c: char| c.is_ascii_digit())
+        && digits.chars().all(|c| c.is_ascii_digit() || ".e-+".contains(c) || power(c))
+}
+
+/// Whether a word is a unit, with a prefix or without: "MN/m", "m/s2", "%", "1/s".
+fn is_unit(word: &str) -> bool {
+    let part = |part: &str| {
+        let base = part.trim_end_matches(['2', '²', '3', '³']);
+        let of = |base: &str| ["m", "s", "N", "g", "Hz", "rad"].contains(&base);
+        let prefixed = base.strip_prefix(['T', 'G', 'M', 'k', 'm', 'u', 'n']);
+        of(base) || prefixed.is_some_and(of) || ["%", "°", "t", "cm"].contains(&base)
+    };
+    let above = word.strip_prefix("1/").unwrap_or(word);
+    above.split(['/', '·']).all(part)
 }
 
 /// 2.7337e15 as 2.7337·10¹⁵; anything else as it is.
@@ -55,7 +103,7 @@ pub(crate) fn number(text: &str) -> String {
     let text = text.split_once('e').and_then(power).unwrap_or_else(|| text.to_string());
     let text =
         if text.starts_with('-') && text.len() > 1 { text.replacen('-', "−", 1) } else { text };
-    escape(&text)
+    unbroken(&escape(&text))
 }
 
 /// A table; columns in `own` stand out.
@@ -112,5 +160,31 @@ mod tests {
         assert_eq!(number("-0.5"), "−0.5");
         assert_eq!(number("the"), "the");
         assert_eq!(pretty("peak theta/alpha 0.066 at Omega_n"), "peak θ/α 0.066 at Ωₙ");
+    }
+
+    #[test]
+    fn no_line_ends_within_a_quantity() {
+        let whole = |text: &str| format!("<span class=\"q\">{text}</span>");
+        for text in [
+            "27 MN m,",
+            "85.42 MN/m",
+            "49.94 1/s",
+            "(1.5 %)",
+            "7.93e8 N·s/m",
+            "2.73·10¹⁵ N/m.",
+            "14550 kg m2",
+            "0.9922 g;",
+            "[N·s/m]",
+            "-0.529 %",
+            "1835 t",
+            "0.5 m/s2",
+        ] {
+            assert_eq!(unbroken(text), whole(text));
+        }
+        assert_eq!(unbroken("at 5.4 s, mu 2"), format!("at {} mu 2", whole("5.4 s,")));
+        assert_eq!(unbroken("5.4 s m2"), whole("5.4 s m2"));
+        for text in ["24 motions", "SAP2000 at once", "2 of 64", "HHT alpha -1/3", "", " a  b "] {
+            assert_eq!(unbroken(text), text);
+        }
     }
 }

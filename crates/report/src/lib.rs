@@ -37,7 +37,7 @@ use cases::{
     doubts::Doubt,
 };
 pub use displacements::{peak_table, summary};
-pub use markdown::{force_value, height};
+pub use markdown::{force_value, forces_to_design_with, height};
 use parameters::{Parameters, elastic::ElasticParameters};
 pub use program::ProgramReport;
 pub use results::predictable_to;
@@ -164,7 +164,7 @@ pub(crate) fn first_lift(time: f64) -> (String, String) {
 }
 
 /// A unit as parameters.json has it.
-pub(crate) fn unit_of(name: &str, row: &dynamics::spring::ChainRow) -> Unit {
+pub fn unit_of(name: &str, row: &dynamics::spring::ChainRow) -> Unit {
     Unit {
         name: name.into(),
         k1_n_per_m: row.k1_n_per_m,
@@ -323,6 +323,17 @@ impl Run {
             _ => false,
         });
         Some(if rests { Unjudged::NothingRocks } else { Unjudged::TooSensitive })
+    }
+
+    /// Whether a design force is one of many that the record might as well have made: such a one is
+    /// no force to design with alone.
+    pub fn has_doubted_forces(&self) -> bool {
+        self.design_forces.iter().any(|forces| forces.all().any(|(_, force)| Self::doubts(&force)))
+    }
+
+    /// Whether a force is given, though the motion cannot be foretold up to it.
+    pub(crate) fn doubts(of: &DesignForce) -> bool {
+        of.holds && !Self::foretells(of)
     }
 
     /// Whether the motion can be foretold up to a force's largest value.

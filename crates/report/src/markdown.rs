@@ -53,7 +53,7 @@ pub(crate) fn sections(run: &Run) -> Vec<Section> {
             ..Section::default()
         });
     }
-    all.extend(forces(run));
+    all.extend(forces_to_design_with(run));
     all.extend(together(run));
     all.push(Section {
         id: "springs",
@@ -116,11 +116,12 @@ fn on_one_corner(forces: &DesignForces) -> Option<String> {
     })
 }
 
-fn forces(run: &Run) -> Option<Section> {
+/// The design forces with what is told of them; none without a record.
+pub fn forces_to_design_with(run: &Run) -> Option<Section> {
     let (forces, words) = (run.design_forces.as_ref()?, run.force_words());
     let cell = |x: Option<f64>, name: ForceName| x.map_or("-".into(), |x| quantity(x, name.unit()));
     let row = |(name, force): (ForceName, DesignForce)| {
-        let doubt = if force.holds && !Run::foretells(&force) { ", not predictable" } else { "" };
+        let doubt = if Run::doubts(&force) { ", not predictable" } else { "" };
         vec![
             format!("{}{}", words(name), height(&force)),
             force_value(name, &force) + doubt,
@@ -156,7 +157,7 @@ fn forces(run: &Run) -> Option<Section> {
                 is largest, axial force that at the base; members.csv has all members. Axial force \
                 is positive in tension. Each is the largest by itself, at its own time{}. Not \
                 predictable: the motion up to that time is one of many alike, and no model tells \
-                which.",
+                which; design by many motions.",
             if together(run).is_some() { "; what acts together is below" } else { "" }
         )],
         table: Some(Table::new(head).with(forces.all().map(row))),

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::{
     Run, Section,
     displacements::exact,
-    html::{escape, in_html, pretty, table, tile},
+    html::{escape, in_html, pretty, table, tile, unbroken},
     markdown::sections,
     sentence,
 };
@@ -186,8 +186,8 @@ fn programs(run: &Run) -> (&'static str, &'static str, String) {
                 format!(
                     "<p>{}: {}{}.{deck}</p>\n",
                     escape(&program.program),
-                    escape(&program.line()),
-                    escape(&set_to)
+                    unbroken(&escape(&program.line())),
+                    unbroken(&escape(&set_to))
                 )
             }
         };
@@ -231,7 +231,9 @@ fn document(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
             <link rel=\"icon\" href=\"data:,\">\n<title>{title}</title>\n<style>\n{STYLE}</style>\n\
-            </head>\n<body>\n<main>\n<h1>{title}</h1>\n<p class=\"sub\">{subtitle}</p>\n<nav>"
+            </head>\n<body>\n<main>\n<h1>{}</h1>\n<p class=\"sub\">{}</p>\n<nav>",
+        unbroken(title),
+        unbroken(subtitle)
     );
     for (id, heading, _) in parts {
         // writing to a String cannot fail
@@ -240,8 +242,11 @@ fn document(
     out.push_str("</nav>\n");
     out.push_str(verdict);
     for (id, heading, body) in parts {
-        let _ =
-            write!(out, "<section id=\"{id}\">\n<h2>{}</h2>\n{body}</section>\n", escape(heading));
+        let _ = write!(
+            out,
+            "<section id=\"{id}\">\n<h2>{}</h2>\n{body}</section>\n",
+            unbroken(&escape(heading))
+        );
     }
     let version = env!("CARGO_PKG_VERSION");
     let _ = write!(

@@ -42,7 +42,7 @@ pub struct ProgramReport {
     table: Table,
     /// Whether they are of use: the program gets through most motions tried, and errs by less.
     #[serde(skip)]
-    pub(crate) usable: bool,
+    pub usable: bool,
     /// Whether it is OpenSees with steps of one size, which has a deck of its own.
     #[serde(skip)]
     pub(crate) deck_of_even_steps: bool,
@@ -172,7 +172,7 @@ impl ProgramReport {
     }
 
     /// For a report.
-    pub(crate) fn section(&self) -> Section {
+    pub fn section(&self) -> Section {
         let set_to =
             self.set_to.iter().map(|s| format!("{}: {}", s.name, s.value)).collect::<Vec<_>>();
         Section {

@@ -158,7 +158,7 @@ impl ProgramSprings {
         effort: &Effort,
     ) -> Result<Self, FixedStepSpringsError> {
         let own = design(body, program.step);
-        let of = |stance| Self::closed_form(body, program, FixedStepDesign { stance, ..own });
+        let of = |stance| Self::designed(body, program, FixedStepDesign { stance, ..own });
         let first = of(STANCES[0])?;
         if body.p_squared().sqrt() * program.step > LONGEST || effort.stopped() {
             return Ok(first);
@@ -196,7 +196,18 @@ impl ProgramSprings {
         Ok(found)
     }
 
-    fn closed_form(
+    /// The first springs that [`Self::measured`] tries, in closed form: at once, but not measured.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn preliminary(
+        body: &Body<f64>,
+        program: FixedStepProgram,
+    ) -> Result<Self, FixedStepSpringsError> {
+        Self::designed(body, program, design(body, program.step))
+    }
+
+    fn designed(
         body: &Body<f64>,
         program: FixedStepProgram,
         design: FixedStepDesign,

@@ -12,6 +12,7 @@ function changed() {
   clearTimeout(atRest);
   if (whole?.busy) whole.restart();
   run = null;
+  $("fixed").classList.add("old");
   atRest = setTimeout(rest, REST_MS);
   const of = version;
   // an answer to what was asked before does not stay
@@ -52,11 +53,11 @@ async function askRecord() {
   try {
     await givePulse(quick);
     lastRecord = JSON.parse((await quick.call("read_record", caseText())).answer);
-    $("record-line").textContent = [lastRecord.line, ...lastRecord.notices].join(". ");
+    $("record-line").textContent = [lastRecord.line, ...lastRecord.notices.map(onPage)].join(". ");
     $("file-error").hidden = true;
   } catch (error) {
     $("record-line").textContent = "";
-    if (state.rec === "file") { $("file-error").textContent = error.message; $("file-error").hidden = false; }
+    if (state.rec === "file") { $("file-error").textContent = onPage(error.message); $("file-error").hidden = false; }
   }
   fileOptions(lastRecord);
 }
@@ -68,15 +69,14 @@ async function rest() {
   }
   const of = version;
   askRecord();
-  fixedStep();
+  fixedStep(of);
   if (missing() || !module) return;
   tune(of);
   charts(of);
 }
 let restHash = "";
 async function tune(of) {
-  const rigid = state.kind === "block" || state.kind === "aframe";
-  $("tune-state").textContent = rigid ? "searching for springs as accurate as asked, a few seconds ..." : "searching for springs as accurate as asked, ten seconds to a minute for a structure that gives ...";
+  $("tune-state").textContent = isRigid() ? "searching for springs as accurate as asked, a few seconds ..." : "searching for springs as accurate as asked, ten seconds to a minute for a structure that gives ...";
   $("tuned").replaceChildren();
   try {
     whole ??= new Computer(module);
@@ -93,7 +93,7 @@ async function tune(of) {
   } catch (error) {
     if (error.message === "stopped" || of !== version) return;
     $("tune-state").textContent = "";
-    $("tuned").innerHTML = `<p class="error">${escape(error.message)}</p>`;
+    $("tuned").innerHTML = `<p class="error">${escape(onPage(error.message))}</p>`;
   }
 }
 
@@ -126,12 +126,12 @@ function showSaid(said, ofRun = false) {
     ["a foot lifts", p ? small(p.uplift_m) : "-", until],
     ["impacts", p ? String(p.impacts) : "-", "times a foot lands"],
     ["lifts at", `${digits(w.uplift_g, 3)} g`, `the ground has ${digits(pga, 3)}\u00a0g`],
-    ["restitution", `${digits(w.restitution, 3)} (ratio)`, "speed kept in an impact"],
+    ["restitution", digits(w.restitution, 3), "speed kept in an impact"],
   ];
   if (typeof p?.bending_m === "number") tiles.splice(2, 0, ["by bending", small(p.bending_m), "of the column"]);
-  if (typeof said.friction_needed === "number") tiles.push(["friction needed", `${digits(said.friction_needed, 3)} (ratio)`, "not to slide"]);
+  if (typeof said.friction_needed === "number") tiles.push(["friction needed", digits(said.friction_needed, 3), "not to slide"]);
   $("tiles").innerHTML = tiles.map(([name, x, more]) => `<div><dt>${name}</dt><dd>${escape(x)}<small>${escape(more) || "&nbsp;"}</small></dd></div>`).join("");
-  $("remarks").innerHTML = said.findings.filter((f) => f.weight !== "answer").map((f) => `<li class="${escape(f.weight)}">${escape(f.message)}${f.remedy ? `; ${escape(f.remedy)}` : ""}</li>`).join("");
+  $("remarks").innerHTML = said.findings.filter((f) => f.weight !== "answer").map((f) => `<li class="${escape(f.weight)}">${escape(onPage(`${f.message}${f.remedy ? `; ${f.remedy}` : ""}`))}</li>`).join("");
   $("springs").innerHTML = springsTable(said.springs, said.springs_at) + (ofRun ? "" : '<p class="small">From the geometry, at once; the search for the accuracy asked for begins when nothing moves.</p>');
   $("working").innerHTML = working(said);
   const end = (h.springs.top.length - 1) * h.step_s;
@@ -160,7 +160,7 @@ function showTime() {
 function showError(message) {
   $("verdict").className = "verdict";
   $("word").textContent = "No answer yet";
-  $("sentence").textContent = message;
+  $("sentence").textContent = onPage(message);
   $("asked").textContent = "";
   $("gauge-fill").style.width = "0";
   for (const id of ["tiles", "remarks", "springs", "tuned", "working", "fixed"]) $(id).replaceChildren();
@@ -169,10 +169,12 @@ function showError(message) {
   for (const id of ["plot-top", "plot-ground", "plot-width", "plot-scale", "plot-spectrum"]) canvasOf(id);
   drawStructure(null, 0, 1, 1);
 }
-async function showTuned({ accuracy, design_forces, screen, files: names, left_out }, text) {
+async function showTuned({ said, accuracy, forces, has_doubted_forces, program, screen, files: names, left_out }, text) {
   $("tune-state").textContent = accuracy?.reached ? "as accurate as asked" : "the accuracy asked for is not reached";
   const rows = (accuracy?.measured ?? []).map((a) => `<tr><th scope="row">${escape(a.on)}</th><td>${a.history === null ? "-" : `${E(100 * a.history, 2)} %`}</td><td>${a.peaks === null ? "-" : `${E(100 * a.peaks, 2)} %`}</td></tr>`);
-  $("tuned").innerHTML = `<h3>Their accuracy, measured</h3><div class="scroll" tabindex="0" role="region" aria-label="Accuracy"><table><caption class="hidden">Accuracy of the springs</caption><thead><tr><th scope="col">on</th><th scope="col">history (NRMSE)</th><th scope="col">peaks</th></tr></thead><tbody>${rows.join("")}</tbody></table></div>${forcesTable(design_forces)}<h3>Files <small>as <code>tune run case.toml --no-figures --no-front</code> writes them, to rounding</small></h3><ul class="files" id="files"></ul>${left_out.map((l) => `<p class="small">${escape(l)}</p>`).join("")}<details><summary>What the program prints</summary><pre tabindex="0">${escape(screen)}</pre></details>`;
+  $("tuned").innerHTML = `<h3>Their accuracy, measured</h3><div class="scroll" tabindex="0" role="region" aria-label="Accuracy"><table><caption class="hidden">Accuracy of the springs</caption><thead><tr><th scope="col">on</th><th scope="col">history (NRMSE)</th><th scope="col">peaks</th></tr></thead><tbody>${rows.join("")}</tbody></table></div>${forcesOf(forces, has_doubted_forces)}<h3>Files <small>as <code>tune run case.toml --no-figures --no-front</code> writes them</small></h3><ul class="files" id="files"></ul>${left_out.map((l) => `<p class="small">${escape(l)}</p>`).join("")}<details><summary>What the program prints</summary><pre tabindex="0">${escape(screen)}</pre></details>`;
+  $("fixed").classList.remove("old");
+  $("fixed").innerHTML = programOf(program, said.springs_at);
   const entries = [["case.toml", text]];
   for (const [name] of names) entries.push([name, (await whole.call("run_file", name)).answer]);
   const record = state.rec === "pulse" ? PULSE : state.rec === "file" ? state.file : null;
@@ -183,15 +185,14 @@ async function showTuned({ accuracy, design_forces, screen, files: names, left_o
   button("Download all (zip)", "main", () => save("tune-out.zip", zip(entries)));
   for (const [name, content] of entries) button(name, "", () => save(name, new Blob([content])));
 }
-async function fixedStep() {
+// what the run tries first, until it is there
+async function fixedStep(of) {
   if (missing() || !quick) return;
-  if (state.kind === "pier" || state.kind === "frame") { $("fixed").innerHTML = '<p class="small">Springs for fixed steps are given for rigid bodies: choose a block or an A-frame.</p>'; return; }
-  const step = Number($("step").value);
+  const show = (html) => { if (of === version && !run) { $("fixed").classList.remove("old"); $("fixed").innerHTML = html; } };
+  if (!isRigid()) return show('<p class="small">They come with the run.</p>');
   try {
-    const f = JSON.parse((await quick.call("fixed_step", caseText(), step, $("integrator").value)).answer);
-    const percent = (x) => `${E(100 * x, 2)} %`;
-    $("fixed").innerHTML = `${springsTable(f.springs, "each foot", "Springs for fixed steps")}<p class="${f.nrmse === null ? "error" : "small"}">${f.nrmse === null ? "Not to be used here. " : ""}On this record: ${escape(f.outcome)}${f.nrmse === null ? "" : `, error of the history ${percent(f.nrmse)} (NRMSE)`}; largest rotation ${percent(f.peak_ratio[0])} of overturning, Housner's ${percent(f.peak_ratio[1])}. Expected on other motions: median ${percent(f.median)}, nine in ten below ${percent(f.ninety)}; the step alone makes ${percent(f.floor)}. Newton's iteration to increments of ${E(f.tolerance_m, 3)} m; rotational inertia of the model ${E(f.rotational_inertia_kgm2)} kg m². ${E(f.steps)} steps.</p>`;
-  } catch (error) { if (error.message !== "stopped") $("fixed").innerHTML = `<p class="error">${escape(error.message)}</p>`; }
+    show(preliminaryProgram(JSON.parse((await quick.call("fixed_step", caseText())).answer)));
+  } catch (error) { if (error.message !== "stopped") show(`<p class="error">${escape(onPage(error.message))}</p>`); }
 }
 
 // ---- charts that fill in, a few histories at a time, so that sliders go before

@@ -3,7 +3,10 @@ for (const radio of document.querySelectorAll("[name=kind]")) radio.addEventList
 for (const radio of document.querySelectorAll("[name=rec]")) radio.addEventListener("change", () => { state.rec = radio.value; movedTime = false; buildForm(); changed(); askRecord(); });
 for (const radio of document.querySelectorAll("[name=units]")) radio.addEventListener("change", () => { state.u = radio.value; buildForm(); changed(); });
 $("form").addEventListener("submit", (e) => e.preventDefault());
-for (const id of ["step", "integrator"]) $(id).addEventListener("input", fixedStep);
+$("program-name").addEventListener("change", () => { state.prog = $("program-name").value; state.integ = ""; programForm(); changed(); });
+$("integrator").addEventListener("change", () => { state.integ = $("integrator").value; changed(); });
+$("step").addEventListener("input", stepTyped);
+$("step").addEventListener("blur", showStep);
 $("magnify").addEventListener("change", showTime);
 $("time").addEventListener("input", () => { movedTime = true; at = Number($("time").value); showTime(); });
 for (const id of ["plot-top", "plot-ground"]) {

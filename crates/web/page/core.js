@@ -41,6 +41,17 @@ const MOTION = {
 };
 const PULSE = "pulse.txt";
 
+// Programs with steps of one size, as `[program]` of a case names them; the integrator that each is set to first.
+const HHT = "hht:-0.3333333333333333";
+const INTEGRATORS = { [HHT]: "Hilber-Hughes-Taylor, alpha -1/3", newmark: "Newmark, average acceleration", "backward-euler": "backward Euler", trbdf2: "TRBDF2", "generalized-alpha:0": "generalized-alpha, rho 0" };
+const PROGRAMS = {
+  sap2000: { title: "SAP2000", integrators: [HHT, "newmark"] },
+  etabs: { title: "ETABS", integrators: [HHT, "newmark"] },
+  "opensees-even": { title: "OpenSees with even steps", integrators: ["backward-euler", "trbdf2", HHT, "newmark"] },
+  other: { title: "another one", integrators: Object.keys(INTEGRATORS) },
+};
+const STEP = { least: 1e-6, most: 0.1, usual: 0.001 };
+
 // ---- units
 const FOOT = 0.3048, POUND = 0.45359237;
 const shown = {
@@ -62,10 +73,15 @@ function digits(x, n = 4) {
 const withUnit = (x, unit, n = 4) => `${digits(x * unitOf(unit).by, n)} ${unitOf(unit).unit}`;
 
 // ---- state
-const state = { kind: "block", u: "m", rec: "elcentro", scale: 1, amp: 0.5, per: 1, file: "", comp: "", vert: false, dt: "", units: "", values: {} };
+const state = { kind: "block", u: "m", rec: "elcentro", scale: 1, amp: 0.5, per: 1, file: "", comp: "", vert: false, dt: "", units: "", prog: "sap2000", step: "", integ: "", values: {} };
 const files = new Map();
 const fields = () => KINDS[state.kind].fields;
 const value = (name) => state.values[name] ?? fields()[name].start;
+const isRigid = () => state.kind === "block" || state.kind === "aframe";
+const integrator = () => state.integ || PROGRAMS[state.prog].integrators[0];
+// of an elastic structure the run looks for a step that gets it through, unless one is given
+const stepGiven = () => state.step || (isRigid() ? STEP.usual : "");
+const goodStep = (x) => x >= STEP.least && x <= STEP.most;
 
 function toHash() {
   const q = new URLSearchParams({ kind: state.kind });
@@ -79,6 +95,8 @@ function toHash() {
     for (const k of ["comp", "dt", "units"]) if (state[k]) q.set(k, state[k]);
     if (state.vert) q.set("vert", "1");
   }
+  if (state.prog !== "sap2000") q.set("prog", state.prog);
+  for (const k of ["step", "integ"]) if (state[k]) q.set(k, state[k]);
   return "#" + q.toString();
 }
 function fromHash(hash) {
@@ -95,6 +113,9 @@ function fromHash(hash) {
   for (const k of ["scale", "amp", "per"]) state[k] = number(q.get(k), MOTION[k]);
   for (const k of ["file", "comp", "dt", "units"]) state[k] = q.get(k) ?? "";
   state.vert = q.get("vert") === "1";
+  state.prog = PROGRAMS[q.get("prog")] ? q.get("prog") : "sap2000";
+  state.step = goodStep(Number(q.get("step"))) ? Number(q.get("step")) : "";
+  state.integ = PROGRAMS[state.prog].integrators.includes(q.get("integ")) ? q.get("integ") : "";
 }
 
 // ---- the case file: what `tune run` reads
@@ -112,7 +133,10 @@ function caseText() {
     if (state.units) lines.push(`units = ${toml(state.units)}`);
   }
   if (state.rec === "pulse") lines.push(`file = "${PULSE}"`, `dt_s = ${float(pulseStep(state.per))}`, `units = "g"`);
-  lines.push(`scale = ${float(state.scale)}`, "");
+  lines.push(`scale = ${float(state.scale)}`, "", "[program]");
+  if (state.prog !== "other") lines.push(`for = "${state.prog}"`);
+  if (stepGiven()) lines.push(`step_s = ${float(stepGiven())}`);
+  lines.push(`integrator = "${integrator()}"`, "");
   return lines.join("\n");
 }
 const pulseStep = (period) => [0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0005].find((s) => s <= period / 100) ?? 0.0005;

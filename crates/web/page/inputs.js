@@ -56,6 +56,33 @@ function buildForm() {
   $("record-part").replaceChildren(motion("scale"));
   $("pulse-part").hidden = state.rec !== "pulse";
   $("file-part").hidden = state.rec !== "file";
+  programForm();
+}
+// the program with steps of one size; its integrators are those that it has
+function programForm() {
+  const options = (id, all, chosen) => $(id).replaceChildren(...all.map(([v, text]) => new Option(text, v, false, v === chosen)));
+  options("program-name", Object.entries(PROGRAMS).map(([key, { title }]) => [key, title]), state.prog);
+  options("integrator", PROGRAMS[state.prog].integrators.map((key) => [key, INTEGRATORS[key]]), integrator());
+  showStep();
+}
+function showStep() {
+  $("step").value = String(stepGiven());
+  $("step").placeholder = isRigid() ? "" : "as it needs";
+  stepError("");
+}
+function stepError(text) {
+  $("step").setAttribute("aria-invalid", String(text !== ""));
+  $("step-error").hidden = text === "";
+  $("step-error").textContent = text;
+}
+function stepTyped() {
+  const text = $("step").value, x = Number(text);
+  // a field with letters in it is empty, too
+  const none = text === "" && !$("step").validity.badInput && !isRigid();
+  if (!none && !goodStep(x)) return stepError(`step: from ${STEP.least} to ${STEP.most} s; the answer is for ${stepGiven() ? `${stepGiven()} s` : "the step that the run finds"}`);
+  stepError("");
+  state.step = none ? "" : x;
+  changed();
 }
 // what a file has to choose from
 function fileOptions(record) {

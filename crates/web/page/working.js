@@ -26,13 +26,48 @@ function springsTable(springs, at, which = "Springs") {
   const row = (s) => `<tr><th scope="row">${escape(s.name)}</th><td>${E(s.k1_n_per_m)}</td><td>${E(s.k2_n_per_m)}</td><td>${E(s.m2_kg)}</td><td>${E(s.c_ns_per_m)}</td></tr>`;
   return `<div class="scroll" tabindex="0" role="region" aria-label="${which} at ${escape(at)}"><table><caption class="hidden">${which} at ${escape(at)}</caption><thead><tr><th scope="col">at ${escape(at)}</th><th scope="col">k1, N/m</th><th scope="col">k2, N/m</th><th scope="col">m2, kg</th><th scope="col">c, N s/m</th></tr></thead><tbody>${springs.map(row).join("")}</tbody></table></div>`;
 }
-const FORCES = [["column_shear_n", "column shear", "N"], ["column_base_moment_nm", "moment at column base", "N m"], ["column_top_moment_nm", "moment at column top", "N m"], ["axial_n", "axial force", "N"], ["axial_tension_n", "tension", "N"], ["apex_moment_nm", "moment at the apex", "N m"], ["sole_shear_n", "shear at the sole, footing included", "N"], ["sole_vertical_n", "vertical force at the sole, footing included", "N"]];
-function forcesTable(forces) {
-  const rows = FORCES.filter(([key]) => forces?.[key]).map(([key, name, unit]) => {
-    const f = forces[key], engineering = (x) => { const [by, prefix] = Math.abs(x) >= 1e6 ? [1e-6, "M"] : Math.abs(x) >= 1e3 ? [1e-3, "k"] : [1, ""]; return `${E(Math.abs(x) * by)} ${prefix}${unit}`; };
-    return `<tr><th scope="row">${name}</th><td>${f.holds && typeof f.value === "number" ? engineering(f.value) : "not foretold"}</td></tr>`;
-  });
-  return rows.length ? `<h3>Forces to design with</h3><div class="scroll" tabindex="0" role="region" aria-label="Forces to design with"><table><caption class="hidden">Forces to design with</caption><tbody>${rows.join("")}</tbody></table></div>` : "";
+// a table of the report
+function reportTable({ head, rows }, name) {
+  const columns = head.map((cell) => `<th scope="col">${escape(cell)}</th>`).join("");
+  const row = ([first, ...rest]) => `<tr><th scope="row">${escape(first)}</th>${rest.map((cell) => `<td>${escape(cell)}</td>`).join("")}</tr>`;
+  return `<div class="scroll" tabindex="0" role="region" aria-label="${name}"><table><caption class="hidden">${name}</caption><thead><tr>${columns}</tr></thead><tbody>${rows.map(row).join("")}</tbody></table></div>`;
+}
+const small = (texts) => texts.map((text) => `<p class="small">${escape(onPage(text))}</p>`).join("");
+// the design forces, as the report has them
+function forcesOf(section, doubted) {
+  if (!section) return "";
+  const mark = doubted ? ' <small class="mark">not predictable: design by many motions</small>' : "";
+  return `<h3>${escape(section.title)}${mark}</h3>${reportTable(section.table, section.title)}${small([...section.text, ...section.notes])}`;
+}
+// springs for a program before the run has measured them
+function preliminaryProgram(f) {
+  const percent = (x) => `${E(100 * x, 2)} %`;
+  return `<p class="small"><strong>Preliminary:</strong> for ${escape(f.program)} with steps of ${escape(f.steps)}, ${escape(f.integrator)}, in closed form. The run below measures such springs, and may take softer or stiffer ones.</p>${springsTable(f.springs, "each foot", "Preliminary springs for the program")}<p class="small">Expected error of a history (NRMSE): median ${percent(f.median)}, nine in ten below ${percent(f.ninety)}; the step alone makes ${percent(f.floor)}.</p>`;
+}
+// those that the run has, with what they err
+function programOf(program, at) {
+  if (!program) return '<p class="small">There are none for this structure.</p>';
+  const { section, springs, usable, errors } = program;
+  const [set] = section.text;
+  const told = `<p class="${usable ? "" : "error"}" id="program-errors">${escape(onPage(errors))}</p>`;
+  return `<p class="small">${escape(section.title)}, as the run has measured them:</p>${springsTable(springs, at, "Springs for the program")}${told}${reportTable(section.table, "Their errors in the program")}${small([set, ...section.notes])}`;
+}
+// What the program tune advises by its options, by the controls of this page; of others it is said whose they are.
+const CONTROLS = [
+  [/take it: --vertical auto|take it with --vertical auto \([^)]*\)/, 'tick "with its vertical component"'],
+  [/choose with --component/, 'choose under "component"'],
+  [/\(--component\)/, 'under "component"'],
+  [/: --scale/, ': "scale of the record"'],
+  [/give --step ([\d.e-]+)/, "give a step of $1 s"],
+  [/another --step/, "another step"],
+  [/ \(leave --integrator out\)/, ", the first of the list"],
+  [/or --integrator backward-euler/, "or backward Euler as integrator"],
+  [/pass --dt SECONDS/, 'give it under "time step"'],
+  [/pass --units .*$/, 'choose it under "unit of the numbers"'],
+];
+function onPage(text) {
+  const said = CONTROLS.reduce((text, [option, control]) => text.replace(option, control), text);
+  return / \(?--[a-z]/.test(said) || /\btune [a-z]+\b/.test(said) ? `${said} (with the program tune, not on this page)` : said;
 }
 // ---- a zip of stored files, for one click
 const CRC = Uint32Array.from({ length: 256 }, (_, n) => { for (let k = 0; k < 8; k++) n = n & 1 ? 0xedb88320 ^ (n >>> 1) : n >>> 1; return n; });

@@ -105,7 +105,7 @@ fn elastic(case: &ElasticCase) -> Result<Said, WebError> {
     })
 }
 
-pub(crate) fn unit(name: &str, chain: &Chain) -> Unit {
+fn unit(name: &str, chain: &Chain) -> Unit {
     let Chain { k1, k2, m2, c, .. } = *chain;
     Unit { name: name.into(), k1_n_per_m: k1, k2_n_per_m: k2, m2_kg: m2, c_ns_per_m: c }
 }

@@ -1,7 +1,7 @@
 //! What is wrong, in the program's own line.
 
 use cases::CaseError;
-use fixed_steps::{integrator::IntegratorError, recipe::FixedStepSpringsError};
+use fixed_steps::recipe::FixedStepSpringsError;
 use frames::{answer::AnswerError, assembled::AssemblyError};
 use run_folder::FolderError;
 use springs::{
@@ -33,10 +33,6 @@ pub enum WebError {
     Folder(#[from] FolderError),
     #[error(transparent)]
     FixedStep(#[from] FixedStepSpringsError),
-    #[error(transparent)]
-    Integrator(#[from] IntegratorError),
-    #[error(transparent)]
-    IntegratorName(#[from] fixed_steps::IntegratorNameError),
     #[error("list of variations: {0}")]
     Variations(#[from] serde_json::Error),
     #[error(
@@ -46,8 +42,8 @@ pub enum WebError {
     #[error("pulse: {name} is {value:?}; give {least} to {most} {unit}")]
     Pulse { name: &'static str, value: f64, least: f64, most: f64, unit: &'static str },
     #[error(
-        "springs for fixed steps are given for rigid bodies; take a block or an A-frame of the \
-            same size"
+        "an elastic structure's springs for a program with steps of one size come with the whole \
+            run"
     )]
     FixedStepElastic,
     #[error(

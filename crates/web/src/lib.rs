@@ -8,7 +8,7 @@
 //! | [`pulse`] | amplitude, period | a record file |
 //! | [`at_once`] | a case | both histories on springs from the geometry, what is said of them |
 //! | [`tune`], [`run_file`] | a case | the whole run: what is said of it; its files, the bytes that `tune run --no-figures --no-front` writes |
-//! | [`fixed_step`] | a case, a step, an integrator | springs for programs with one size of step |
+//! | [`fixed_step`] | a rigid body's case | the springs for its program that a run tries first |
 //! | [`variations`] | a case; sizes, slendernesses, scales | the largest rotation of each |
 //!
 //! Every function gives JSON, or the one line that the program says of bad input. There are no
@@ -117,14 +117,14 @@ pub fn run_file(name: &str) -> String {
     run::file(name)
 }
 
-/// Springs of a rigid body for a program with one size of step (s); integrators by name, as
-/// "trbdf2", "hht:-0.333", "newmark", "generalized-alpha:0", "backward-euler".
+/// Springs of a rigid body for the case's program with steps of one size, in closed form and not
+/// measured: those that [`tune`] tries first.
 ///
 /// # Errors
-/// What is wrong with the case, the step or the integrator; an elastic structure.
+/// What is wrong with the case; an elastic structure.
 #[cfg_attr(target_family = "wasm", wasm_bindgen)]
-pub fn fixed_step(case: &str, step: f64, integrator: &str) -> JsonOrLine {
-    json(AnyCase::of(case).and_then(|case| fixed_step::answer(&case, step, integrator)))
+pub fn fixed_step(case: &str) -> JsonOrLine {
+    json(AnyCase::of(case).and_then(|case| fixed_step::preliminary(&case)))
 }
 
 /// Peak |theta|/alpha of bodies on the case's record, by Housner: JSON in, a list of

@@ -18,11 +18,10 @@ use dynamics::effort::{Effort, StopSignal};
 use fixed_steps::FixedStepProgram;
 use frames::{answer::ElasticAnswer, assembled::Assembled};
 use report::{
-    AccuracyReport, Run,
+    AccuracyReport, ProgramReport, Run, Section, Unit, forces_to_design_with,
     rigid::RigidRun,
     screen::{Written, screen},
 };
-use results::DesignForces;
 use run_folder::{elastic::ElasticRun, rigid, texts::RunTexts};
 use springs::{
     elastic::{
@@ -44,13 +43,36 @@ static FILES: Mutex<Vec<(String, String)>> = Mutex::new(Vec::new());
 pub(crate) struct RunAnswer {
     said: Said,
     accuracy: Option<AccuracyReport>,
-    design_forces: Option<DesignForces>,
+    /// The forces to design with, as the report has them, and whether some of them the record
+    /// might as well have made otherwise.
+    forces: Option<Section>,
+    has_doubted_forces: bool,
+    /// None where there are no such springs.
+    program: Option<ProgramAnswer>,
     /// What the program prints.
     screen: String,
     /// Names of its files and their lengths in bytes.
     files: Vec<(String, usize)>,
     /// Decks that are left out, with the reason.
     left_out: Vec<String>,
+}
+
+/// The springs for a program with steps of one size, as the report has them.
+#[derive(Serialize)]
+struct ProgramAnswer {
+    springs: Vec<Unit>,
+    usable: bool,
+    /// What they err, or why they are not to be used.
+    errors: String,
+    section: Section,
+}
+
+impl ProgramAnswer {
+    fn of(report: ProgramReport) -> Self {
+        let section = report.section();
+        let ProgramReport { units, usable, errors, .. } = report;
+        Self { springs: units, usable, errors, section }
+    }
 }
 
 pub(crate) fn tune(case: &AnyCase, friction: f64) -> Result<RunAnswer, WebError> {
@@ -62,8 +84,16 @@ pub(crate) fn tune(case: &AnyCase, friction: f64) -> Result<RunAnswer, WebError>
     *FILES.lock().unwrap_or_else(PoisonError::into_inner) = files;
     let written = Written { folder: FOLDER, report: true, decks: true, left_out: &left_out };
     let screen = screen(&run, &written);
-    let Run { accuracy, design_forces, .. } = run;
-    Ok(RunAnswer { said, accuracy, design_forces, screen, files: named, left_out })
+    Ok(RunAnswer {
+        said,
+        forces: forces_to_design_with(&run),
+        has_doubted_forces: run.has_doubted_forces(),
+        program: run.program.map(ProgramAnswer::of),
+        accuracy: run.accuracy,
+        screen,
+        files: named,
+        left_out,
+    })
 }
 
 pub(crate) fn file(name: &str) -> String {

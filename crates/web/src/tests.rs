@@ -78,11 +78,38 @@ fn variations_are_bodies_on_the_record() {
 }
 
 #[test]
-fn fixed_steps_have_springs_of_rigid_bodies_alone() {
-    let answer = parsed(fixed_step(FRAME, 1e-3, "trbdf2"));
+fn springs_for_a_program_are_in_closed_form_at_once() {
+    let case = format!("{FRAME}[program]\nstep_s = 0.001\nintegrator = \"trbdf2\"\n");
+    let answer = parsed(fixed_step(&case));
+    let k1 = answer["springs"][0]["k1_n_per_m"].as_f64().unwrap();
     // 7.75 sqrt(p/dt)/alpha of the frame: K is 1/4 there (`fixed_steps::recipe`)
-    assert!((answer["omega_n_hz"].as_f64().unwrap() - 247.0).abs() < 1.0, "{answer}");
-    assert!(answer["nrmse"].as_f64().unwrap() < 0.1, "{answer}");
-    assert!(fixed_step(PIER, 1e-3, "trbdf2").unwrap_err().contains("rigid bodies"));
-    assert!(fixed_step(FRAME, 0.0, "trbdf2").unwrap_err().contains("no time step"));
+    let omega_n_hz = (k1 / 680.1e3).sqrt() / std::f64::consts::TAU;
+    assert!((omega_n_hz - 247.0).abs() < 1.0, "{answer}");
+    assert_eq!(answer["integrator"], "TRBDF2");
+    assert!(fixed_step(PIER).unwrap_err().contains("whole run"));
+    let wrong = format!("{FRAME}[program]\nstep_s = 0.0\n");
+    assert!(fixed_step(&wrong).unwrap_err().contains("program.step_s is 0.0"));
+}
+
+/// The whole run has the program's springs, measured, and files for its steps.
+#[test]
+fn a_run_is_for_the_program_of_the_case() {
+    let frame = "[structure]\nkind = \"aframe\"\nheight_m = 28.0\nwidth_m = 6.0\n\
+        mass_kg = 1834862.0\n[program]\nfor = \"sap2000\"\nstep_s = 0.005\n";
+    let first = parsed(fixed_step(frame));
+    let answer = parsed(tune(frame, 0.5));
+    let k1 = |from: &Value| from["springs"][0]["k1_n_per_m"].as_f64().unwrap();
+    let program = &answer["program"];
+    // the run takes a softer stance than the first it tries: 9 in place of 12
+    assert!((k1(program) / k1(&first) - 0.75).abs() < 1e-9, "{program}");
+    let errors = program["errors"].as_str().unwrap();
+    assert!(errors.contains("16 earthquake-like motions"), "{errors}");
+    // as on the screen, in the sheet and in parameters.json
+    let screen = answer["screen"].as_str().unwrap();
+    assert!(screen.contains("SAP2000, 5 ms: vertical"), "{screen}");
+    let sheet = run_file("decks/sap2000_by_hand.txt");
+    assert!(sheet.contains("0.005"), "{sheet}");
+    let filed: Value = serde_json::from_str(&run_file("parameters.json")).unwrap();
+    assert_eq!(filed["program"]["vertical"]["k1_n_per_m"].as_f64(), Some(k1(program)));
+    assert_eq!(filed["program"]["asked"], true);
 }

@@ -31,9 +31,7 @@ const INDENT: usize = 2;
 pub(super) fn lines(run: &Run, tight: bool) -> Vec<String> {
     let Some(forces) = &run.design_forces else { return Vec::new() };
     // an asterisk where some are, a word where all are
-    let doubted = |one: (ForceName, DesignForce)| one.1.holds && !Run::foretells(&one.1);
-    let [some, every] =
-        [forces.all().any(doubted), forces.all().all(|one| !Run::foretells(&one.1))];
+    let [some, every] = [run.has_doubted_forces(), forces.all().all(|one| !Run::foretells(&one.1))];
     // of one motion of many the head tells of all
     let mark = if some && !every && !run.one_of_many() { "*" } else { "" };
     let doubt = match run.one_of_many() {
@@ -63,7 +61,7 @@ pub(super) fn lines(run: &Run, tight: bool) -> Vec<String> {
         all.extract_if(.., |(_, force)| tight && force.value.is_none()).collect();
     let cells = |told: Told| -> Vec<[String; 2]> {
         let cell = |&(name, force): &(ForceName, DesignForce)| {
-            let mark = if doubted((name, force)) { mark } else { "" };
+            let mark = if Run::doubts(&force) { mark } else { "" };
             [short(run, name, &force), value(name, &force, mark, told)]
         };
         all.iter().map(cell).collect()
