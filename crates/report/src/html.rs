@@ -64,7 +64,7 @@ pub(crate) fn unbroken(escaped: &str) -> String {
 
 /// Words of the quantity, or of the unit in brackets, that these begin with; 0 of none.
 fn length_of_quantity(words: &[&str]) -> usize {
-    let bare = |word: &str| word.trim_end_matches([',', '.', ';', ':', ')']).to_string();
+    let bare = |word: &str| word.trim_end_matches([',', '.', ';', ':', ')', '*']).to_string();
     match words {
         [head, ..] if head.starts_with('[') && bare(head).ends_with(']') => 1,
         // "MN m", "N s/m", "kg m2"; nothing goes on after a comma

@@ -325,9 +325,14 @@ impl Run {
         Some(if rests { Unjudged::NothingRocks } else { Unjudged::TooSensitive })
     }
 
-    /// Whether a design force is one of many that the record might as well have made: such a one is
-    /// no force to design with alone.
-    pub fn has_doubted_forces(&self) -> bool {
+    /// Whether some design forces are those of one motion of many that the record might as well
+    /// have made: then they are no forces to design with alone.
+    pub fn asks_for_many_motions(&self) -> bool {
+        self.design_forces.is_some() && (self.one_of_many() || self.has_doubted_forces())
+    }
+
+    /// Whether some design force is given, though the motion cannot be foretold up to it.
+    pub(crate) fn has_doubted_forces(&self) -> bool {
         self.design_forces.iter().any(|forces| forces.all().any(|(_, force)| Self::doubts(&force)))
     }
 

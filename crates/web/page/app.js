@@ -169,10 +169,10 @@ function showError(message) {
   for (const id of ["plot-top", "plot-ground", "plot-width", "plot-scale", "plot-spectrum"]) canvasOf(id);
   drawStructure(null, 0, 1, 1);
 }
-async function showTuned({ said, accuracy, forces, has_doubted_forces, program, screen, files: names, left_out }, text) {
+async function showTuned({ said, accuracy, forces, design_by_many: many, program, screen, files: names, left_out }, text) {
   $("tune-state").textContent = accuracy?.reached ? "as accurate as asked" : "the accuracy asked for is not reached";
   const rows = (accuracy?.measured ?? []).map((a) => `<tr><th scope="row">${escape(a.on)}</th><td>${a.history === null ? "-" : `${E(100 * a.history, 2)} %`}</td><td>${a.peaks === null ? "-" : `${E(100 * a.peaks, 2)} %`}</td></tr>`);
-  $("tuned").innerHTML = `<h3>Their accuracy, measured</h3><div class="scroll" tabindex="0" role="region" aria-label="Accuracy"><table><caption class="hidden">Accuracy of the springs</caption><thead><tr><th scope="col">on</th><th scope="col">history (NRMSE)</th><th scope="col">peaks</th></tr></thead><tbody>${rows.join("")}</tbody></table></div>${forcesOf(forces, has_doubted_forces)}<h3>Files <small>as <code>tune run case.toml --no-figures --no-front</code> writes them</small></h3><ul class="files" id="files"></ul>${left_out.map((l) => `<p class="small">${escape(l)}</p>`).join("")}<details><summary>What the program prints</summary><pre tabindex="0">${escape(screen)}</pre></details>`;
+  $("tuned").innerHTML = `<h3>Their accuracy, measured</h3><div class="scroll" tabindex="0" role="region" aria-label="Accuracy"><table><caption class="hidden">Accuracy of the springs</caption><thead><tr><th scope="col">on</th><th scope="col">history (NRMSE)</th><th scope="col">peaks</th></tr></thead><tbody>${rows.join("")}</tbody></table></div>${forcesOf(forces, many)}<h3>Files <small>as <code>tune run case.toml --no-figures --no-front</code> writes them</small></h3><ul class="files" id="files"></ul>${left_out.map((l) => `<p class="small">${escape(l)}</p>`).join("")}<details><summary>What the program prints</summary><pre tabindex="0">${escape(screen)}</pre></details>`;
   $("fixed").classList.remove("old");
   $("fixed").innerHTML = programOf(program, said.springs_at);
   const entries = [["case.toml", text]];

@@ -34,9 +34,9 @@ function reportTable({ head, rows }, name) {
 }
 const small = (texts) => texts.map((text) => `<p class="small">${escape(onPage(text))}</p>`).join("");
 // the design forces, as the report has them
-function forcesOf(section, doubted) {
+function forcesOf(section, many) {
   if (!section) return "";
-  const mark = doubted ? ' <small class="mark">not predictable: design by many motions</small>' : "";
+  const mark = many ? ' <small class="mark">not predictable: design by many motions</small>' : "";
   return `<h3>${escape(section.title)}${mark}</h3>${reportTable(section.table, section.title)}${small([...section.text, ...section.notes])}`;
 }
 // springs for a program before the run has measured them

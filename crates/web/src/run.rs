@@ -43,10 +43,9 @@ static FILES: Mutex<Vec<(String, String)>> = Mutex::new(Vec::new());
 pub(crate) struct RunAnswer {
     said: Said,
     accuracy: Option<AccuracyReport>,
-    /// The forces to design with, as the report has them, and whether some of them the record
-    /// might as well have made otherwise.
+    /// The forces to design with, as the report has them, and whether to design by many motions.
     forces: Option<Section>,
-    has_doubted_forces: bool,
+    design_by_many: bool,
     /// None where there are no such springs.
     program: Option<ProgramAnswer>,
     /// What the program prints.
@@ -87,7 +86,7 @@ pub(crate) fn tune(case: &AnyCase, friction: f64) -> Result<RunAnswer, WebError>
     Ok(RunAnswer {
         said,
         forces: forces_to_design_with(&run),
-        has_doubted_forces: run.has_doubted_forces(),
+        design_by_many: run.asks_for_many_motions(),
         program: run.program.map(ProgramAnswer::of),
         accuracy: run.accuracy,
         screen,
