@@ -33,8 +33,7 @@ impl Model {
         if !self.massless() || !(feet[0].closed() || feet[1].closed()) {
             return true;
         }
-        // a tendon pulls on the mass and turns nothing; with dampers the rotation cannot jump
-        if self.elements.dampers.is_some() {
+        if !self.law.slips() && !self.jumps() {
             return true;
         }
         let start = state.q[TH];
@@ -52,7 +51,7 @@ impl Model {
 
     /// Whether the rotation stands where V is least, or has inertia and need not.
     pub(crate) fn in_balance(&self, state: &State, feet: &[Foot; 2]) -> bool {
-        if !self.massless() || !self.is_plain() || !(feet[0].closed() || feet[1].closed()) {
+        if !self.jumps() || !(feet[0].closed() || feet[1].closed()) {
             return true;
         }
         let (_, moment, stiffness) = self.potential(state, feet);
@@ -86,7 +85,7 @@ impl Model {
     /// keeps what it has.
     pub(crate) fn rotate_in_balance(&self, state: &mut State, feet: &[Foot; 2]) {
         let leans = feet[0].closed() || feet[1].closed();
-        if !self.massless() || !self.is_plain() || !leans {
+        if !self.jumps() || !leans {
             return;
         }
         let contact = self.contact(&state.q, feet);

@@ -33,7 +33,7 @@ impl<T: MatrixNumber> Coupled<T> {
         for k in [X, Z, TH] {
             body[k][k] = body[k][k] + T::from(masses[k]);
         }
-        for element in model.elements.each() {
+        for element in model.elements_under(feet).each() {
             let tangent = element.tangent(&state.q, &state.v);
             for (row, (k, c)) in body.iter_mut().zip(tangent.stiffness.iter().zip(&tangent.damping))
             {

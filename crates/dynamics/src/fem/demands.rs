@@ -104,7 +104,7 @@ fn demand_of(view: &View, feet: &[FootForce; 2]) -> DemandRow {
         shear += tendon.force_on_mass(q)[0];
         tension = tendon.tension(q);
     }
-    if let Some(all) = &model.elements.dampers {
+    if let Some(all) = &model.elements_under(view.feet).dampers {
         dampers = all.forces(q, v).map(|(force, _)| force);
     }
     [

@@ -88,6 +88,9 @@ impl Pose {
 /// body.
 const MASSLESS_ROTATION: f64 = 2e-3;
 
+/// Share of 1/Omega_n below which the time that dampers hold up a massless rotation is none.
+const AT_ONCE: f64 = 1e-2;
+
 /// Body and springs, ready to compute with.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Model {
@@ -142,11 +145,6 @@ impl Model {
         }
         if let Some(damper) = members.damper.filter(|damper| damper.c > 0.0) {
             model.elements.dampers = Some(Dampers::new(damper.c, body));
-            if body.inertia > 0.0 {
-                // dampers let a rotation without inertia neither follow the contact forces at once
-                // nor keep its rate
-                (model.translation, model.rotation) = (body.mass, body.inertia);
-            }
         }
         if let Some(members::Tendon { stiffness, pretension }) = members.tendon {
             let (state, _) = model.stand(body.mass * GRAVITY + pretension);
@@ -166,6 +164,26 @@ impl Model {
     /// Whether the rotation follows the contact forces without inertia.
     pub(super) fn massless(&self) -> bool {
         self.rotation == 0.0
+    }
+
+    /// Whether such a rotation jumps to its balance: against dampers it takes c/k1, which is
+    /// nothing beside a landing's 1/Omega_n unless the springs are soft. A tendon turns nothing.
+    pub(super) fn jumps(&self) -> bool {
+        let spring = &self.springs.vertical;
+        let settling = (self.body.mass / spring.k1).sqrt();
+        let slow = |dampers: &Dampers| dampers.c() > AT_ONCE * spring.k1 * settling;
+        self.massless() && !self.law.slips() && !self.elements.dampers.as_ref().is_some_and(slow)
+    }
+
+    /// What stands between body and ground. While both feet of a body without rotational inertia
+    /// are in the air its dampers do not turn it: see `rotational_inertia`.
+    #[inline(always)]
+    pub(super) fn elements_under(&self, feet: &[Foot; 2]) -> Elements {
+        let mut all = self.elements;
+        if self.massless() && !feet[0].closed() && !feet[1].closed() {
+            all.dampers = all.dampers.map(Dampers::aloft);
+        }
+        all
     }
 
     /// Position of foot i relative to where it stood, with the derivatives by theta: (p_x, p_z,
@@ -298,7 +316,9 @@ impl Model {
                 + vertical.k2 * q[az(i)]
                 + vertical.c * v[az(i)]);
         }
-        self.elements.add_forces(q, v, &mut f);
+        if !self.elements.is_empty() {
+            self.elements_under(feet).add_forces(q, v, &mut f);
+        }
         f
     }
 
@@ -310,10 +330,14 @@ impl Model {
 
     /// In free flight a massless rotation keeps its rate, as the limit of a small I_cg does (no
     /// moment acts, so the value does not matter).
+    ///
+    /// Dampers would stop it within I_cg/(2 c b^2), at once where there is no I_cg: then the feet
+    /// would rise with the mass, and the slightest rebound of a landing become a hop in which the
+    /// frame moves along without turning. Legs that weigh something go on turning while a foot
+    /// rebounds, and Housner's foot does not rebound: so dampers turn the body while a foot is on
+    /// the ground, and hold but its mass while none is.
     fn rotational_inertia(&self, feet: &[Foot; 2]) -> f64 {
-        // dampers do turn it in flight
-        let free = self.elements.dampers.is_none();
-        if self.massless() && free && !feet[0].closed() && !feet[1].closed() {
+        if self.massless() && !feet[0].closed() && !feet[1].closed() {
             self.body.mass * self.body.height * self.body.height
         } else {
             self.rotation

@@ -15,7 +15,8 @@
 //! A vertical ground acceleration moves mass and absorber alike (but for I_cg/R^2, less than 2e-3
 //! of the mass, see `model`).
 
-use super::model::{Model, Pose, State, TH, X, Z, ax, az};
+use super::element::Element;
+use super::model::{Contact, Foot, Model, N, Pose, State, TH, X, Z, ax, az};
 use rocking::scalar::GRAVITY;
 
 /// What ends the trailing of a foot, each once it is positive.
@@ -27,9 +28,20 @@ pub(super) struct Strut {
 }
 
 impl Model {
-    /// Whether the body on one foot is a strut: no inertia, no member, no slip.
+    /// Whether the body on one foot is a strut: no inertia, no slip. A tendon pulls on the mass;
+    /// what little moment dampers have, a trailing foot takes up.
     pub(super) fn is_strut(&self) -> bool {
-        self.massless() && self.is_plain()
+        self.massless() && !self.law.slips()
+    }
+
+    /// Force (N, zero or less) below which foot i lifts as the only one on the ground. The moment
+    /// of dampers that pull the other foot down is taken up by this one; without rotational inertia
+    /// it would let go before its thrust along the strut ends, touch at once, and chatter on so
+    /// until the thrust outweighs the dampers. It is held until that thrust ends, as without them.
+    pub(super) fn lets_go_at(&self, i: usize, State { q, v }: &State) -> f64 {
+        let Some(dampers) = self.elements.dampers.filter(|_| self.jumps()) else { return 0.0 };
+        let (_, pz_th) = self.compression_and_slope(i, q);
+        (dampers.force(q, v)[TH] / pz_th).min(0.0)
     }
 
     /// Foot i as the only one near the ground.
@@ -41,7 +53,11 @@ impl Model {
         let apart = (v[X] - v[ax(i)]) * pz_th - (v[Z] - v[az(i)]) * px_th;
         let chain = &self.springs.vertical;
         let absorber = -(chain.k2 * q[az(i)] + chain.c * v[az(i)]) / chain.m2;
-        let foot = -self.body.mass * GRAVITY / self.translation - px_th * v[TH] * v[TH];
+        let members = self.elements_under(&[Foot { contact: Contact::Open, anchor: 0.0 }; 2]);
+        let mut flying = [0.0; N];
+        flying[Z] = -self.body.mass * GRAVITY;
+        members.add_forces(q, v, &mut flying);
+        let foot = flying[Z] / self.translation - px_th * v[TH] * v[TH];
         Strut { press: -apart / self.body.radius(), lift: foot - absorber }
     }
 }
@@ -51,16 +67,21 @@ mod tests {
     use num_dual::{Dual64, DualNum};
 
     use super::*;
-    use crate::{
-        fem::model::{Contact, Foot},
-        spring::{Chain, Springs},
+    use crate::spring::{Chain, Springs};
+    use rocking::{
+        members::{Damper, Members, Tendon},
+        structure::Body,
     };
-    use rocking::structure::Body;
 
-    fn model() -> Model {
+    fn with(members: Members) -> Model {
         let chain = |k1: f64| Chain { k1, k2: 0.3 * k1, m2: 40.0, c: 2e3 };
         let body = Body { mass: 100.0, half_width: 1.2, height: 2.5, inertia: 0.0 };
-        Model::new(&body, &Springs { vertical: chain(1e6), horizontal: chain(3e6) })
+        let springs = Springs { vertical: chain(1e6), horizontal: chain(3e6) };
+        Model::with_members(&body, &springs, &members)
+    }
+
+    fn model() -> Model {
+        with(Members::default())
     }
 
     const Q: [f64; 7] = [0.1, -0.02, 0.03, 0.01, -0.004, 0.002, -0.03];
@@ -87,10 +108,14 @@ mod tests {
     /// their motion.
     #[test]
     fn it_lifts_as_the_foot_in_flight_leaves_the_ground() {
-        let model = model();
+        let members = Members {
+            damper: Some(Damper { c: 30.0 }),
+            tendon: Some(Tendon { stiffness: 3e3, pretension: 500.0 }),
+            friction: None,
+        };
         let feet = [Foot { contact: Contact::Open, anchor: 0.0 }; 2];
-        let (forces, masses) = (model.forces(&Q, &V, &feet, [0.0; 2]), model.masses(&feet));
-        for i in 0..feet.len() {
+        for (model, i) in [model(), with(members)].into_iter().flat_map(|m| [(m, 0), (m, 1)]) {
+            let (forces, masses) = (model.forces(&Q, &V, &feet, [0.0; 2]), model.masses(&feet));
             let moving = |t: f64| {
                 let q =
                     std::array::from_fn(|k| Q[k] + V[k] * t + 0.5 * forces[k] / masses[k] * t * t);

@@ -4,6 +4,8 @@
 //!   rate of a corner   w = Z' + a theta',   a = dp_z/dtheta = h sin theta - s b cos theta
 //!   F_Z = -c w         F_theta = -c w a     P = c w^2       da/dtheta = h cos theta + s b sin theta
 //! ```
+//!
+//! Of dampers that do not turn the body a = 0: they follow its mass.
 
 use super::{Element, ElementTangent};
 use crate::fem::model::{Pose, SIDE, TH, Vector, Z};
@@ -16,18 +18,39 @@ pub(crate) struct Dampers {
     c: f64,
     half_width: f64,
     height: f64,
+    /// Whether they turn the body.
+    turn: bool,
 }
 
 impl Dampers {
     pub(crate) fn new(c: f64, body: &Body<f64>) -> Self {
-        Self { c, half_width: body.half_width, height: body.height }
+        Self { c, half_width: body.half_width, height: body.height, turn: true }
+    }
+
+    /// The same, but that they do not turn the body.
+    pub(crate) fn aloft(self) -> Self {
+        Self { turn: false, ..self }
+    }
+
+    /// c of each (N s/m).
+    pub(crate) fn c(&self) -> f64 {
+        self.c
+    }
+
+    /// dp_z/dtheta of corner i and its derivative (m).
+    fn arm(&self, i: usize, q: &Vector) -> (f64, f64) {
+        if !self.turn {
+            return (0.0, 0.0);
+        }
+        let Pose { sin, cos } = Pose::of(q);
+        let sb = self.half_width * SIDE[i];
+        (self.height * sin - sb * cos, sb * sin + self.height * cos)
     }
 
     /// Each one's force on the body, upwards (N), and its arm a (m).
     pub(crate) fn forces(&self, q: &Vector, v: &Vector) -> [(f64, f64); 2] {
-        let Pose { sin, cos } = Pose::of(q);
         std::array::from_fn(|i| {
-            let arm = self.height * sin - self.half_width * SIDE[i] * cos;
+            let (arm, _) = self.arm(i, q);
             (-self.c * (v[Z] + arm * v[TH]), arm)
         })
     }
@@ -44,11 +67,10 @@ impl Element for Dampers {
     }
 
     fn tangent(&self, q: &Vector, v: &Vector) -> ElementTangent {
-        let Pose { sin, cos } = Pose::of(q);
         let (c, rate, forces) = (self.c, v[TH], self.forces(q, v));
         let one = |i: usize| {
             let (force, arm) = forces[i];
-            let turning = self.half_width * SIDE[i] * sin + self.height * cos;
+            let (_, turning) = self.arm(i, q);
             [arm * c, arm * arm * c, turning * rate * c, turning * (arm * rate * c - force)]
         };
         let (l, r) = (one(0), one(1));

@@ -19,6 +19,7 @@ fn all() -> Vec<(&'static str, Box<dyn Element>)> {
     let tendon = |slack: f64| TendonElement { stiffness: 4e6, slack, height: 9.0, pretension: 0.0 };
     vec![
         ("dampers", Box::new(Dampers::new(3e4, &body()))),
+        ("dampers aloft", Box::new(Dampers::new(3e4, &body()).aloft())),
         ("tendon", Box::new(tendon(8.9))),
         ("slack tendon", Box::new(tendon(9.9))),
     ]

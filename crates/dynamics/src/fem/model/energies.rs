@@ -55,7 +55,10 @@ impl Model {
             + vertical.c * (v[az(0)] * v[az(0)] + v[az(1)] * v[az(1)]);
         let taken =
             if self.law.slips() { springs + self.friction_loss(q, v, feet) } else { springs };
-        self.elements.add_dissipation(taken, q, v)
+        if self.elements.is_empty() {
+            return taken;
+        }
+        self.elements_under(feet).add_dissipation(taken, q, v)
     }
 
     /// Power that friction takes (W).

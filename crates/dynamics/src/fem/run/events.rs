@@ -33,6 +33,9 @@ const LET_GO: f64 = 1e-3;
 /// What such a sliding foot must carry before it holds, over that share.
 const HOLDING: f64 = 0.1;
 
+/// By how much a foot that dampers pull lifts later: they change within a step.
+const LATER: f64 = 1.1;
+
 /// Steps that locate one event: Newton's method needs two or three, bisection where the gap all but
 /// grazes many more.
 const MOST_LOCATED: usize = 40;
@@ -112,6 +115,14 @@ impl TimeLoop<'_> {
         HOLDING * LET_GO * self.leant_on[foot] / self.model.springs.vertical.k1
     }
 
+    /// Compression of k1 at which this foot lifts (m), zero or less.
+    pub(super) fn letting_go(&self, foot: usize) -> f64 {
+        if self.feet[1 - foot].closed() {
+            return 0.0;
+        }
+        LATER * self.model.lets_go_at(foot, &self.state) / self.model.springs.vertical.k1
+    }
+
     /// Take note of the repeated step of an event that is sought, and say how to go on.
     pub(super) fn locate(
         &mut self,
@@ -126,7 +137,7 @@ impl TimeLoop<'_> {
         }
         let (foot, h, end) = (event.foot, event.h, stages.end());
         // the contact lasts while sign (compression - level) is positive
-        let sign = if self.feet[foot].closed() && event.level == 0.0 { 1.0 } else { -1.0 };
+        let sign = if self.feet[foot].closed() && event.level <= 0.0 { 1.0 } else { -1.0 };
         let gap = self.model.compression(foot, &end.q) - event.level;
         if gap.abs() <= self.gap_tolerance() {
             return Located::Here { changes: true };
@@ -236,9 +247,8 @@ impl TimeLoop<'_> {
             && !(whirls && flies && self.model.massless())
             && self.model.turn_to_balance(&mut self.state, &self.feet);
         let end = self.state.q[TH];
-        // feet of a structure with members, and feet that may slip, are met by the steps that
-        // follow
-        if !self.balanced || end == start || !self.model.is_plain() {
+        // feet that may slip are met by the steps that follow
+        if !self.balanced || end == start || !self.model.jumps() {
             return None;
         }
         let passed = |foot: usize| {

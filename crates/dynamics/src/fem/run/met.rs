@@ -59,7 +59,7 @@ impl TimeLoop<'_> {
             // the contact lasts while sign (compression - level) is positive
             let limits: &[(f64, f64)] = match self.feet[foot].contact {
                 Contact::Open => &[(-1.0, 0.0)],
-                Contact::Stick | Contact::Slip(_) => &[(1.0, 0.0)],
+                Contact::Stick | Contact::Slip(_) => &[(1.0, self.letting_go(foot))],
                 // see `grip`
                 Contact::Trail => &[],
                 Contact::Slide => &[(1.0, 0.0), (-1.0, self.holding(foot))],
