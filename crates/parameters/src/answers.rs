@@ -115,6 +115,11 @@ pub fn validate(parameters: &Parameters, records: &[Record]) -> Validation {
 }
 
 impl ModelComparison {
+    /// The history on springs that answers for the structure: with its members, if it has any.
+    pub fn answer(&self) -> &History {
+        self.with.as_ref().map_or(&self.fem, |with| &with.history)
+    }
+
     /// What the histories say together; `dt` in s.
     pub fn verdict(&self, body: &Body<f64>, dt: f64, conditioning: &Conditioning) -> Verdict {
         let verdict =

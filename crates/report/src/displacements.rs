@@ -89,7 +89,10 @@ pub fn peak_table(run: &Run) -> Option<Table> {
         (None, None) => "on springs".to_string(),
     };
     let mut head = vec![largest.to_string(), reference, on_springs, "difference".into()];
-    head.extend(with.map(|_| "with members".into()));
+    head.extend(with.map(|_| match pair.with_members_end_s {
+        Some(end) => format!("with members, ONLY to {} s", significant(end, 3)),
+        None => "with members".into(),
+    }));
     let row = |(name, of, words, when): PeakRow| {
         let part = |peaks: &Peaks| {
             let rounding = |x: &f64| x.abs() < ROUNDING * peaks.top_displacement_m;
@@ -153,7 +156,7 @@ const SUMMARY: [SummaryRow; 7] = [
 ];
 
 /// `summary.csv`: largest displacements and design forces as plain numbers, SI units; cells of what
-/// is withheld are empty. `holds_to_s`: up to when a force counts, if that is not all of the
+/// is withheld are empty. `holds_to_s`: up to when a number counts, if that is not all of the
 /// record; `time_s`: when it is, on springs; `predictable`: whether the motion is, up to then.
 pub fn summary(run: &Run) -> Table {
     let head = ["quantity", "unit", "reference", "on_springs", "holds_to_s", "time_s"];
@@ -167,6 +170,7 @@ pub fn summary(run: &Run) -> Table {
     let until = run.predictable_to();
     if let Some(pair) = &run.peaks {
         let springs = pair.with_members.unwrap_or(pair.springs);
+        let ends = pair.with_members_end_s;
         for (name, of, unit, when) in SUMMARY {
             let [a, b] = [&pair.reference, &springs].map(|peaks| of(peaks).map(exact));
             // of a history that ends early no largest value is known
@@ -176,7 +180,7 @@ pub fn summary(run: &Run) -> Table {
             let sure = time.map(|time| until.is_none_or(|until| time <= until));
             let time = time.filter(|time| time.is_finite());
             if a.or(b).is_some() {
-                row(name, unit, [a, b, None, time], sure);
+                row(name, unit, [a, b, ends, time], sure);
             }
         }
     }

@@ -346,6 +346,12 @@ impl Run {
         of.predictable != Some(false)
     }
 
+    /// Whether its answer is that of a rigid body with members: what Housner's body does stands
+    /// beside.
+    pub(crate) fn has_members(&self) -> bool {
+        self.findings.iter().any(|f| matches!(f.finding, Finding::MembersBeside { .. }))
+    }
+
     /// All that is to be said besides the verdict, gravest first.
     pub(crate) fn remarks(&self) -> impl Iterator<Item = &FiledFinding> {
         let told =
@@ -354,8 +360,8 @@ impl Run {
             .iter()
             .enumerate()
             .filter(move |(i, finding)| match told {
-                Some(told) => *i != told && finding.weight != Weight::Answer,
-                None => finding.weight != Weight::Answer,
+                Some(told) if !self.has_members() => *i != told && finding.weight != Weight::Answer,
+                _ => finding.weight != Weight::Answer,
             })
             .map(|(_, finding)| finding)
     }

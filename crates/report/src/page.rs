@@ -154,7 +154,7 @@ fn programs(run: &Run) -> (&'static str, &'static str, String) {
             .to_string()
     } else {
         let sap2000 = match (&run.program, run.sap2000) {
-            (None, _) => format!("<p>SAP2000: {}.</p>\n", escape(crate::screen::NO_PROGRAM)),
+            (None, _) => format!("<p>SAP2000: {}.</p>\n", escape(crate::screen::no_program(run))),
             (Some(program), deck) => {
                 let deck = match deck {
                     _ if program.deck_of_even_steps => {

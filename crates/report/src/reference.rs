@@ -2,13 +2,17 @@
 //! history is, and whether rocking holds.
 
 use dynamics::fem::{self, HistoryOutcome};
-use parameters::answers::ModelComparison;
+use files::message::percent;
+use parameters::answers::{MemberHistory, ModelComparison};
 use results::{Ending, Finding, FindingModel, findings::HARDLY_ROCKS};
 use rocking::{
     conditioning::Conditioning,
     housner::{self, Rocking},
+    members::Members,
     motion::TimedPeak,
+    overturning::samples_until,
     regime::{self, Regime},
+    scalar::GRAVITY,
     structure::{Body, Structure},
 };
 use strong_motion::Record;
@@ -26,6 +30,8 @@ pub struct HousnerReport {
     pub regime: Regime,
     /// Whether the record lifts Housner's body: else there is no history to be sensitive.
     pub lifted: bool,
+    /// Whether the structure lands: with its members, if it has any.
+    pub lands: bool,
     /// When its pivot left the ground, which ends his solution (s).
     pub left_ground_s: Option<f64>,
     /// Of a history that is ill-conditioned: up to when no change of 0.1 % moves it by a twentieth
@@ -62,13 +68,37 @@ impl HousnerReport {
                 friction,
             ),
             lifted,
+            lands: lifted,
             left_ground_s: rocking.left_ground(),
         }
     }
 
+    /// The same of a structure whose tendon and dampers press its feet on the ground, or lift them:
+    /// what its history between landings asks of the ground. Feet that may slip ask for no more
+    /// than they get, so that of those Housner's body still tells.
+    #[must_use]
+    pub fn with_members(self, body: &Body<f64>, record: &Record, both: &ModelComparison) -> Self {
+        let Some(with) = both.with.as_ref().filter(|with| with.members.friction.is_none()) else {
+            return self;
+        };
+        let fallen = samples_until(with.matched.overturned_fem_s, record.dt);
+        let samples = fallen.min(with.demands.feet.len());
+        let landings = &with.history.landings;
+        let mut needed = TimedPeak { value: 0.0, time: 0.0 };
+        for i in fem::between_landings(body, record.dt, landings, samples) {
+            let [[left_h, left_n], [right_h, right_n]] = with.demands.feet[i];
+            let (along, press) = ((left_h + right_h).abs(), left_n + right_n);
+            if press > 0.0 && along / press > needed.value {
+                needed = TimedPeak { value: along / press, time: i as f64 * record.dt };
+            }
+        }
+        let lands = !landings.is_empty();
+        Self { regime: Regime { friction_needed: needed, ..self.regime }, lands, ..self }
+    }
+
     /// Friction coefficient needed.
     pub(crate) fn friction_needed(&self) -> f64 {
-        friction_needed(&self.regime, self.lifted)
+        friction_needed(&self.regime, self.lands)
     }
 
     /// Where pure rocking does not hold.
@@ -86,7 +116,7 @@ impl HousnerReport {
                 available,
                 press_over_weight: None,
             });
-        } else if self.lifted && r.landing_friction > available {
+        } else if self.lands && r.landing_friction > available {
             all.push(Finding::Sliding {
                 needed: r.landing_friction,
                 time_s: None,
@@ -133,7 +163,7 @@ pub(crate) fn verdict(
     verdict: &Verdict,
 ) -> Vec<Finding> {
     let Verdict { housner, finite_elements, .. } = verdict;
-    let mut all = vec![match (housner.fate, finite_elements.fate) {
+    let without = || match (housner.fate, finite_elements.fate) {
         (Fate::NeverLifted, _) => {
             let uplift_g = structure.width_m / (2.0 * structure.height_m);
             Finding::NeverLifts { pga_g: record.pga_g(), uplift_g }
@@ -153,7 +183,10 @@ pub(crate) fn verdict(
             if_feet_hold: false,
             of_columns: false,
         },
-    }];
+    };
+    let with = both.with.as_ref().map(|with| of_members(structure, record, with));
+    let mut all = vec![with.unwrap_or_else(without)];
+    all.extend(both.with.as_ref().map(|_| Finding::MembersBeside { without: did(housner) }));
     all.extend(verdict.housner_without_vertical.map(|level| Finding::WithoutVertical {
         does: does(&level),
         share_of_overturning: match level.fate {
@@ -168,6 +201,47 @@ pub(crate) fn verdict(
         });
     }
     all
+}
+
+/// What the structure does with its members.
+fn of_members(structure: &Structure, record: &Record, with: &MemberHistory) -> Finding {
+    let answer = Answer::of_history(&structure.body(), record.dt, &with.history);
+    let motion = &with.history.motion;
+    let followed_s = motion.len().saturating_sub(1) as f64 * record.dt;
+    match answer.fate {
+        Fate::NeverLifted => Finding::NeverLifts {
+            pga_g: record.pga_g(),
+            uplift_g: uplift_g(structure, &with.members),
+        },
+        Fate::Overturned => Finding::Overturns {
+            time_s: answer.overturned_s.unwrap_or(followed_s),
+            reference_s: None,
+        },
+        Fate::Failed => Finding::NoAnswer {
+            model: FindingModel::Members,
+            time_s: ends_early(&with.history).unwrap_or(followed_s),
+        },
+        Fate::Rocked | Fate::LeftGround => Finding::Stands {
+            share_of_overturning: answer.peak_ratio,
+            reference_share: None,
+            over_s: followed_s,
+            largest_at_s: TimedPeak::of(record.dt, &motion.theta).map(|peak| peak.time),
+            if_feet_hold: false,
+            of_columns: false,
+        },
+    }
+}
+
+/// Ground acceleration (g) that lifts a body: b/h, and with a tendon of tension T, which the feet
+/// bear as they bear the weight W, and which acts where the mass is only by its upright pull,
+///
+/// ```text
+///   m ug'' h = (W + T) b
+/// ```
+pub(crate) fn uplift_g(structure: &Structure, members: &Members) -> f64 {
+    let pull = members.tendon.map_or(0.0, |tendon| tendon.pretension);
+    let weight = structure.mass_kg * GRAVITY;
+    structure.width_m / (2.0 * structure.height_m) * (1.0 + pull / weight)
 }
 
 /// That a lifted body's history cannot be compared one to one.
@@ -189,6 +263,15 @@ pub(crate) fn ill_conditioned(
             springs_judged,
         }
     })
+}
+
+/// The same, with how far it rocked.
+fn did(answer: &Answer) -> String {
+    let far = match answer.fate {
+        Fate::Rocked => format!(", to {} of overturning", percent(answer.peak_ratio)),
+        _ => String::new(),
+    };
+    does(answer) + &far
 }
 
 fn does(answer: &Answer) -> String {
@@ -213,6 +296,14 @@ pub fn histories(both: &ModelComparison) -> Vec<Finding> {
         }
     }
     all
+}
+
+/// When a history ends that could not be followed to its record's end (s).
+pub(crate) fn ends_early(history: &fem::History) -> Option<f64> {
+    match history.outcome {
+        HistoryOutcome::WorkBound { time } | HistoryOutcome::Unstable { time } => Some(time),
+        _ => None,
+    }
 }
 
 fn ended(model: FindingModel, history: &fem::History) -> Option<Finding> {

@@ -5,19 +5,20 @@ mod limits;
 mod peaks;
 pub mod program;
 pub mod tables;
+mod taken;
 
 use super::{
     AccuracyReport, Assumed, FiledParameters, ProgramReport, Run, Section, Taken, changes, doubts,
     filed, judged, predictable_to,
     program::with_verdict,
-    reference::{self, HousnerReport, friction_needed},
+    reference::{self, HousnerReport},
     stiffness_tradeoff::TradeoffPoint,
     unit_of,
 };
 use cases::{Case, Objective, doubts::Doubt};
 use decks::stepped_history;
 use dynamics::spring::{Design, Springs};
-use files::message::{percent, quantity, significant};
+use files::message::{percent, significant};
 use fixed_steps::FixedStepHistory;
 use limits::springs_findings;
 use parameters::{
@@ -27,14 +28,10 @@ use parameters::{
 };
 use peaks::{peaks, peaks_to};
 use results::{Finding, PeakChange};
-use rocking::{
-    housner::RockingOutcome,
-    members::Members,
-    regime,
-    structure::{Kind, Structure},
-};
+use rocking::{housner::RockingOutcome, members::Members, regime, structure::Kind};
 use springs::{job::Job, paper_procedure::table_1};
 use strong_motion::Record;
+use taken::taken;
 
 /// A job done: springs, both models' histories, and what parameters.json holds.
 pub struct RigidRun {
@@ -80,6 +77,7 @@ impl RigidRun {
             || HousnerReport::new(&job.body, case.restitution, &job.record, &job.rocking, friction);
         let ((both, mut parameters), ((paper, recovered), report)) =
             parallel::join(own, || parallel::join(others, report));
+        let report = report.with_members(&job.body, &job.record, &both);
         parameters.matched = Some(both.matched);
         parameters.match_with_members = both.with.as_ref().map(|with| with.matched);
         (parameters.paper_procedure, parameters.table_1) = (paper, recovered);
@@ -121,7 +119,9 @@ impl RigidRun {
         let sap2000 = parameters.members().is_none();
         let alone = alone(parameters);
         let mut facts = alone.taken.facts.clone();
-        facts.extend(self.job.rocking.uplifts.first().map(|uplift| super::first_lift(uplift.time)));
+        // a tendon holds the body down for longer than Housner's
+        let first = self.job.rocking.uplifts.first().filter(|_| self.case.members.tendon.is_none());
+        facts.extend(first.map(|uplift| super::first_lift(uplift.time)));
         Run {
             taken: Taken {
                 facts,
@@ -129,7 +129,7 @@ impl RigidRun {
                 short_record: Some(self.case.excitation.short_line()),
                 vertical: record.vertical.is_some(),
                 assumed: self.assumed(),
-                ..taken(&self.case.structure, self.case.restitution)
+                ..taken(&self.case.structure, self.case.restitution, &self.case.members)
             },
             friction_needed: Some(self.report.friction_needed()),
             sap2000,
@@ -169,7 +169,6 @@ impl RigidRun {
         all.extend(parameters.design_forces.iter().filter_map(|forces| forces.at_rest()));
         all.extend(self.report.findings());
         all.extend(reference::histories(&self.both));
-        all.extend(self.both.with.as_ref().map(|_| Finding::MembersBeside));
         let until = all.iter().find_map(Finding::predictable_to);
         all.extend(judged::rigid(&self.case.structure, parameters, &self.job.record, until));
         all
@@ -186,7 +185,7 @@ impl RigidRun {
         let record = excitation.used().ok()?;
         let Self { case, job, .. } = self;
         let chains = self.parameters.chains();
-        let both = both(&job.body, case.restitution, &chains, &Members::default(), &record);
+        let both = both(&job.body, case.restitution, &chains, &case.members, &record);
         let kind = case.structure.kind;
         // where Housner's solution ends, forces are of springs
         let softer = softer(case, job, &record, &both);
@@ -197,12 +196,14 @@ impl RigidRun {
         let given = (self.parameters.peaks, self.parameters.design_forces);
         let mut changes = changes(super::force_words(kind), given, (peaks, forces));
         let ground = (&record.accel[..], record.up());
-        let needed = regime::check(&job.body, record.dt, ground, 1.0, &both.rocking, f64::INFINITY);
+        let regime = regime::check(&job.body, record.dt, ground, 1.0, &both.rocking, f64::INFINITY);
+        let lifted = both.rocking.outcome != RockingOutcome::NeverMoved;
+        let report = HousnerReport { regime, lifted, lands: lifted, ..self.report };
         changes.push(PeakChange {
             quantity: "friction needed".into(),
             unit: String::new(),
             without: self.report.friction_needed(),
-            with: friction_needed(&needed, both.rocking.outcome != RockingOutcome::NeverMoved),
+            with: report.with_members(&job.body, &record, &both).friction_needed(),
         });
         let fell = |both: &ModelComparison| {
             both.matched.overturned_housner_s.or(both.matched.overturned_fem_s)
@@ -270,7 +271,7 @@ fn alone(parameters: Parameters) -> Run {
     };
     let accuracy = parameters.assessment.as_ref().map(AccuracyReport::of_rigid);
     Run {
-        taken: taken(&parameters.structure, parameters.restitution()),
+        taken: taken(&parameters.structure, parameters.restitution(), &parameters.members()),
         reference: super::HOUSNER,
         peaks: parameters.peaks,
         friction_needed: None,
@@ -284,33 +285,6 @@ fn alone(parameters: Parameters) -> Run {
         sections: sections(&parameters),
         parameters: FiledParameters::Rigid(Box::new(parameters)),
     }
-}
-
-/// The structure as it was understood.
-fn taken(structure: &Structure, restitution: f64) -> Taken {
-    let body = structure.body::<f64>();
-    let m = |x: f64| format!("{} m", significant(x, 4));
-    let mass = quantity(structure.mass_kg, "kg");
-    let (height, width) = (m(structure.height_m), m(structure.width_m));
-    let text = match structure.kind {
-        Kind::AFrame => format!("A-frame {height} high, feet {width} apart, {mass} at its apex"),
-        Kind::Block => format!("block {} high, {width} wide, {mass}", m(2.0 * structure.height_m)),
-    };
-    let facts = [
-        ("height h of the centre of mass", height),
-        ("distance 2b of the feet", width),
-        ("mass m", mass),
-        (
-            "rotational inertia about the centre of mass",
-            format!("{} kg m2", significant(structure.rotational_inertia_kgm2, 4)),
-        ),
-        ("slenderness alpha", format!("{} rad", significant(body.alpha(), 4))),
-        ("frequency p", format!("{} 1/s", significant(body.p_squared().sqrt(), 4))),
-        ("restitution e", significant(restitution, 4)),
-        ("lifts at g tan alpha", format!("{} g", significant(body.alpha().tan(), 4))),
-    ];
-    let facts = facts.into_iter().map(|(name, value)| (name.to_string(), value)).collect();
-    Taken::new(text, facts)
 }
 
 /// The history on springs of a quarter of Omega_n, where Housner's cannot tell whether forces are

@@ -89,8 +89,17 @@ const CROWDING: [Crowding; 7] = [
 ];
 
 /// What is said where no springs suit steps of one size.
-pub(crate) const NO_PROGRAM: &str = "not these springs: programs with steps of one size need \
+const NO_PROGRAM: &str = "not these springs: programs with steps of one size need \
     others; there are none for this structure";
+/// The same of a structure with members, which `tune export --stepping even` refuses.
+const NO_PROGRAM_FOR_MEMBERS: &str = "not these springs: programs with steps of one size need \
+    others, which are not made for dampers, tendons or friction";
+
+/// Why there are no springs for steps of one size.
+pub(crate) fn no_program(run: &Run) -> &'static str {
+    if run.has_members() { NO_PROGRAM_FOR_MEMBERS } else { NO_PROGRAM }
+}
+
 /// The deck of OpenSees with steps of one size.
 pub const EVEN_DECK: &str = "model_even.py";
 /// The model for SAP2000 as a sheet to type from.
@@ -366,6 +375,6 @@ fn next(run: &Run, written: &Written, crowding: Crowding, lines: &mut Vec<String
                 wrap(lines, "its deck  ", &deck);
             }
         }
-        None => wrap(lines, "SAP2000   ", NO_PROGRAM),
+        None => wrap(lines, "SAP2000   ", no_program(run)),
     }
 }

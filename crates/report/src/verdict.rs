@@ -10,9 +10,18 @@ impl Run {
         let answer = self.findings.iter().find(|finding| finding.weight == Weight::Answer);
         let graver =
             self.findings.iter().find(|f| matches!(f.finding, Finding::ModelsDisagree { .. }));
-        let Some(told) = graver.or(answer) else {
+        let gravest = answer.filter(|_| self.has_members()).or(graver).or(answer);
+        let Some(told) = gravest else {
             return "Springs without a record: nothing rocked.".into();
         };
+        if let Some(without) = self.without_members() {
+            return sentence(&format!(
+                "with its members {}{}{}{without}",
+                told.message,
+                self.not_computed(),
+                self.foretold()
+            ));
+        }
         sentence(&format!(
             "{}{}{}{}",
             told.message,
@@ -20,6 +29,16 @@ impl Run {
             self.feet_apart(),
             self.foretold()
         ))
+    }
+
+    /// What Housner's body does without the members that the structure has.
+    fn without_members(&self) -> Option<String> {
+        self.findings.iter().find_map(|filed| match &filed.finding {
+            Finding::MembersBeside { without } => {
+                Some(format!("; without members, Housner's body {without}"))
+            }
+            _ => None,
+        })
     }
 
     /// Where the feet end, if not where they began.
@@ -58,7 +77,9 @@ impl Run {
                     | Finding::NoAnswer { .. }
             ),
         });
-        match any(|f| matches!(f, Finding::Stands { .. })) && !in_part && alone.is_empty() {
+        let stands = any(|f| matches!(f, Finding::Stands { .. }));
+        // how a small change moves it is known of Housner's body alone
+        match stands && !in_part && alone.is_empty() && !self.has_members() {
             true => "; predictable".into(),
             false => alone,
         }

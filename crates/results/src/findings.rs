@@ -275,7 +275,11 @@ pub enum Finding {
         model: FindingModel,
         steps: usize,
     },
-    MembersBeside,
+    MembersBeside {
+        /// What Housner's body does without members.
+        #[serde(default)]
+        without: String,
+    },
     /// Feet that landed elsewhere than they stood leave the structure bent, held by friction.
     FeetApart {
         apart_m: f64,
@@ -388,7 +392,7 @@ impl Finding {
             | Self::ProgramStepForAccuracy { .. } => Weight::Note,
             Self::NearMotions { .. }
             | Self::ForcesAtRest { .. }
-            | Self::MembersBeside
+            | Self::MembersBeside { .. }
             | Self::DeckJudged { .. }
             | Self::WithoutVertical { .. } => Weight::Note,
             _ => Weight::Warning,

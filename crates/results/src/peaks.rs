@@ -94,6 +94,9 @@ pub struct PeakPair {
     /// On springs, with dampers, tendon or friction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub with_members: Option<Peaks>,
+    /// When that history ends, if it could not be followed to the record's end (s).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub with_members_end_s: Option<f64>,
     /// Of a motion that can be foretold for a part of the record alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub foretold: Option<ForetoldPeaks>,

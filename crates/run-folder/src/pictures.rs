@@ -6,6 +6,7 @@ use std::path::Path;
 
 use crate::FolderError;
 use cases::Case;
+use dynamics::{compare::Match, fem::History};
 use figures::{EventMark, Figure, FigureError, Sheet, brief, short};
 use parameters::answers::ModelComparison;
 use report::stiffness_tradeoff::TradeoffPoint;
@@ -92,9 +93,22 @@ impl Pictures<'_> {
         (0..n).map(|i| i as f64 * self.job.record.dt).collect()
     }
 
+    /// The history on springs that answers for the structure, and its match: with its members, if
+    /// it has any.
+    fn own(&self) -> (&History, &Match) {
+        let both = self.both;
+        both.with.as_ref().map_or((&both.fem, &both.matched), |with| (&with.history, &with.matched))
+    }
+
+    /// What is drawn, said of a structure with members.
+    fn with_members(&self, what: &str) -> String {
+        let with = if self.both.with.is_some() { ", with members" } else { "" };
+        format!("{what}{with}")
+    }
+
     /// When the finite element model overturned, in words.
     fn fall(&self) -> Option<(f64, String)> {
-        let time = self.both.matched.overturned_fem_s?;
+        let time = self.own().1.overturned_fem_s?;
         Some((time, format!("overturned at t = {time:.2} s")))
     }
 
@@ -115,7 +129,7 @@ impl Pictures<'_> {
     }
 
     fn history(&self) -> Result<Option<Sheet>, FigureError> {
-        let (housner, fem) = (&self.both.housner, &self.both.fem);
+        let (housner, (fem, _)) = (&self.both.housner, self.own());
         let what = match self.case.structure.kind {
             BodyKind::AFrame => "Displacement of the apex",
             BodyKind::Block => "Displacement of the centre of mass",
@@ -132,14 +146,14 @@ impl Pictures<'_> {
         let fall = fall
             .or_else(|| early.then(|| (last, format!("finite elements: end at t = {last:.2} s"))));
         let reference = figures::history::Trace {
-            label: "Housner",
+            label: if self.both.with.is_some() { "Housner, without members" } else { "Housner" },
             u: &housner.u,
             v: &housner.v,
             impacts: &impacts_housner,
             end: event(&end),
         };
         let other = figures::history::Trace {
-            label: "finite elements on ground springs",
+            label: &self.with_members("finite elements on ground springs"),
             u: &fem.motion.u,
             v: &fem.motion.v,
             impacts: &impacts_fem,
@@ -181,13 +195,13 @@ impl Pictures<'_> {
     }
 
     fn contact(&self) -> Result<Option<Sheet>, FigureError> {
-        let f = &self.both.fem.forces;
+        let f = &self.own().0.forces;
         let t = self.times(f.vertical[0].len());
         let fall = self.fall();
         let data = figures::contact::ContactFigure {
             title: &format!(
                 "{}\n{}",
-                self.title("Forces between the feet and the ground"),
+                self.title(&self.with_members("Forces between the feet and the ground")),
                 letters(FORCES)
             ),
             t: &t,
@@ -202,11 +216,11 @@ impl Pictures<'_> {
     }
 
     fn energy(&self) -> Result<Option<Sheet>, FigureError> {
-        let a = &self.both.fem.account;
+        let a = &self.own().0.account;
         let t = self.times(a.input.len());
         let fall = self.fall();
         let data = figures::energy::EnergyFigure {
-            title: &self.title("Energy account of the finite elements"),
+            title: &self.title(&self.with_members("Energy account of the finite elements")),
             t: &t,
             input: &a.input,
             stored: &a.stored,

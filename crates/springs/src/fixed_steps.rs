@@ -130,14 +130,15 @@ impl ProgramSuites {
 
 impl ProgramSprings {
     /// Springs for the program that a case asks for, or for the usual one; none for a restitution
-    /// other than equation 2's, which such springs do not have.
+    /// other than equation 2's, which such springs do not have, and none for a body with members.
     pub(crate) fn of_case(
         case: &Case,
         body: &Body<f64>,
         suites: &Suites,
         effort: &Effort,
     ) -> Option<Self> {
-        if differs_from_housner(body, case.restitution) {
+        // no program's model of such steps has members
+        if differs_from_housner(body, case.restitution) || !case.members.is_none() {
             return None;
         }
         let program = case.program.unwrap_or_else(FixedStepProgram::usual);

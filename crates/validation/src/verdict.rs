@@ -80,7 +80,8 @@ impl Answer {
         Self { left_ground_s, ..Self::new(body, dt, fate, rocking.overturned(), &rocking.theta) }
     }
 
-    fn of_history(body: &Body<f64>, dt: f64, history: &History) -> Self {
+    /// Of a history on springs.
+    pub fn of_history(body: &Body<f64>, dt: f64, history: &History) -> Self {
         let theta = &history.motion.theta;
         let time = overturned(body, dt, theta);
         let fate = match history.outcome {

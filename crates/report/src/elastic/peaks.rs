@@ -94,6 +94,7 @@ impl ElasticParts<'_> {
             reference_ends_s: None,
             springs_end_s: early,
             with_members: None,
+            with_members_end_s: None,
             foretold: None,
         }
     }

@@ -37,7 +37,8 @@ impl RunAtOnce {
         let (body, record) = (structure.body::<f64>(), case.excitation.used()?);
         let parameters = Parameters::new(structure, springs);
         let both = both(&body, e, &parameters.chains(), &case.members, &record);
-        let report = HousnerReport::new(&body, e, &record, &both.rocking, friction);
+        let report = HousnerReport::new(&body, e, &record, &both.rocking, friction)
+            .with_members(&body, &record, &both);
         let verdict = both.verdict(&body, record.dt, &report.conditioning);
         let mut findings: Vec<Finding> =
             reference::all(&structure, &record, &both, &report, &verdict);
@@ -49,7 +50,10 @@ impl RunAtOnce {
             ..parameters
         };
         let mut run = Run { friction_needed: Some(report.friction_needed()), ..alone(parameters) };
-        run.taken = crate::Taken { record: Some(case.excitation.line()), ..taken(&structure, e) };
+        run.taken = crate::Taken {
+            record: Some(case.excitation.line()),
+            ..taken(&structure, e, &case.members)
+        };
         Ok(Self { record, both, run })
     }
 }

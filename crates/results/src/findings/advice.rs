@@ -9,7 +9,7 @@ impl Finding {
         let text = match self {
             Self::Stands { .. }
             | Self::ForcesAtRest { .. }
-            | Self::MembersBeside
+            | Self::MembersBeside { .. }
             | Self::NearMotions { .. }
             | Self::DeckJudged { .. }
             | Self::WithoutVertical { .. } => {

@@ -97,7 +97,7 @@ impl Finding {
             | Self::ForceWithheld { .. }
             | Self::ForcesHeldInPart { .. }
             | Self::ForcesAtRest { .. }
-            | Self::MembersBeside => self.springs(),
+            | Self::MembersBeside { .. } => self.springs(),
             Self::ProgramStepTooLong { .. }
             | Self::ProgramLoses { .. }
             | Self::ProgramNotToBeUsed { .. }
@@ -315,7 +315,7 @@ impl Finding {
                 listed(forces),
                 if forces.len() == 1 { "is" } else { "are" }
             ),
-            Self::MembersBeside => {
+            Self::MembersBeside { .. } => {
                 "springs are tuned for the structure without its dampers, tendon and friction"
                     .into()
             }

@@ -262,3 +262,29 @@ fn a_screen_has_thirty_lines_of_a_hundred_letters_whatever_the_run() {
         check_screen(&run, &long);
     }
 }
+
+/// A wall whose tendon keeps it down while Housner's body without it rocks: the answer, what lifts
+/// it and the friction needed are those of the wall with its tendon; no springs for steps of one
+/// size are offered, which `tune export` would refuse.
+#[test]
+fn a_wall_with_a_tendon_is_answered_with_its_tendon() {
+    let wall = "[structure]\nkind = \"block\"\ntotal_height_m = 9.0\nwidth_m = 6.0\n\
+                weight_kn = 2500.0\n[tendon]\nstiffness_n_per_m = 1.5e7\npretension_n = 1.2e6\n";
+    let run = run(2.8, Some(wall));
+    let said = run.said(run.parameters.clone());
+    let verdict = said.verdict();
+    // (W + T) b/(W h)
+    let start = "With its members the record does not lift the structure: its peak is 0.876";
+    assert!(verdict.starts_with(start), "{verdict}");
+    assert!(verdict.contains("uplift takes 0.9867 g; without members, Housner's body rocks"));
+    assert!(run.parameters.program.is_none());
+    let written = Written { folder: "out", report: true, decks: true, left_out: &[] };
+    let screen = screen(&said, &written);
+    assert!(screen.contains("lifts beyond 0.9867 g, without tendon 0.6667 g"), "{screen}");
+    assert!(screen.contains("which are not made for dampers"), "{screen}");
+    assert!(screen.lines().count() <= 30 && screen.lines().all(|l| l.chars().count() <= 98));
+    // standing, it asks for m a_g/(m g + T)
+    let needed = said.friction_needed.unwrap();
+    let by_hand = run.job.record.pga_g() * 2.5e6 / (2.5e6 + 1.2e6);
+    assert!((needed / by_hand - 1.0).abs() < 0.02, "{needed} {by_hand}");
+}
