@@ -59,7 +59,7 @@ for (let i = 0; i < (quiet ? 5 : 2); i++) {
 const timed = (good, what) => (quiet ? check(good, what) : console.log(`time ${what}`));
 timed(median(firsts) < 1000, `first history drawn after ${median(firsts).toFixed(0)} ms (below 1000)`);
 timed(quantile(paints, 0.9) <= 60, `slider to paint: median ${median(paints).toFixed(0)} ms, 90 % within ${quantile(paints, 0.9).toFixed(0)} ms (60)`);
-timed(median(tunes) <= 4000, `the whole run: ${median(tunes).toFixed(0)} ms (4000)`);
+timed(median(tunes) <= 2000, `the whole run: ${median(tunes).toFixed(0)} ms (2000)`);
 check(Math.max(...memories) <= 32 * 2 ** 20, `memory of one worker: ${(Math.max(...memories) / 2 ** 20).toFixed(1)} MiB (32)`);
 
 // ---- a file is dropped, as a person does it

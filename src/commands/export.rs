@@ -231,7 +231,7 @@ fn with_record(
     file: &Path,
     options: &RecordOptions,
 ) -> Result<(Parameters, Record, String), CommandError> {
-    parameters.structure = with_inertia(&parameters.structure);
+    parameters.structure = with_inertia(&parameters.structure, &parameters.members());
     let excitation = options.checked_excitation(|| parameters.excitation(file))?;
     Ok((parameters, excitation.used()?, excitation.line()))
 }

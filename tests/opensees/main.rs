@@ -38,7 +38,7 @@ fn programs() -> Vec<Program> {
 /// What `tune run --max-hz` finds for the structure on the embedded record.
 fn tuned(structure: Structure, objective: Objective, max_hz: f64) -> Springs<Design<f64>> {
     let mut case = Case::paper().unwrap();
-    case.structure = with_inertia(&structure);
+    case.structure = with_inertia(&structure, &Members::default());
     case.restitution = case.structure.body::<f64>().restitution();
     case.tuning.objective = objective;
     case.tuning.max_omega_hz = Some(max_hz);
@@ -56,7 +56,7 @@ fn agrees_at(
     structure: Structure,
     springs: Springs<Design<f64>>,
 ) {
-    let parameters = Parameters::new(with_inertia(&structure), &springs);
+    let parameters = Parameters::new(with_inertia(&structure, &Members::default()), &springs);
     let record = Record::el_centro().truncated(20.0);
     for program in programs {
         let result = verify(&parameters, &record, (accuracy, None), program, &|_, _| ()).unwrap();
@@ -104,7 +104,7 @@ fn decks_on_stiff_springs_are_within_their_limit_in_few_steps() {
     let pier = Structure::a_frame(12.0, 2.4, 350e3).unwrap();
     let mut steps = Vec::new();
     for structure in [Structure::paper(), pier, Structure::a_frame(35.0, 7.7, 400e3).unwrap()] {
-        let structure = with_inertia(&structure);
+        let structure = with_inertia(&structure, &Members::default());
         for hz in [1e3, 2.5e3, 1e4, 4e4] {
             let parameters = Parameters::new(structure, &stiff(&structure, hz));
             let record = Record::el_centro().truncated(20.0);
@@ -137,7 +137,7 @@ fn decks_on_stiff_springs_are_within_their_limit_in_few_steps() {
 #[test]
 #[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
 fn springs_on_which_a_lifting_foot_chatters_are_refused() {
-    let pier = with_inertia(&Structure::a_frame(12.0, 2.4, 350e3).unwrap());
+    let pier = with_inertia(&Structure::a_frame(12.0, 2.4, 350e3).unwrap(), &Members::default());
     let springs = Springs {
         vertical: Design::from_kc(3.266_217, 0.491_645_5, 3.115_690, 160.0),
         horizontal: Design::from_kc(0.012_999_14, 0.013_417_59, 0.007_559_770, 160.0),

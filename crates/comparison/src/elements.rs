@@ -9,6 +9,7 @@ use dynamics::{
 };
 use parameters::Parameters;
 use rocking::{
+    members::Members,
     motion::{Motion, nrmse},
     structure::Structure,
 };
@@ -29,7 +30,7 @@ pub struct BenchCase {
 
 /// The paper's structure, with the little rotational inertia that a deck for OpenSees needs.
 pub fn structure() -> Structure {
-    decks::with_inertia(&Structure::paper())
+    decks::with_inertia(&Structure::paper(), &Members::default())
 }
 
 impl BenchCase {

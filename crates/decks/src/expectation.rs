@@ -82,7 +82,7 @@ pub fn foretold_rigid(
 mod tests {
     use super::*;
     use dynamics::spring::{Design, Springs};
-    use rocking::structure::Structure;
+    use rocking::{members::Members, structure::Structure};
 
     fn motion(theta: Vec<f64>) -> Motion {
         Motion { u: theta.clone(), v: theta.clone(), theta }
@@ -95,7 +95,7 @@ mod tests {
         until: Option<f64>,
     ) -> DeckExpectation {
         let chain = Design::from_kc(0.5, 0.2, 0.92, 40.0);
-        let frame = crate::with_inertia(&Structure::paper());
+        let frame = crate::with_inertia(&Structure::paper(), &Members::default());
         let parameters = Parameters::new(frame, &Springs { vertical: chain, horizontal: chain });
         let mut record = Record::new("made up", 0.01, vec![0.0; 101]).unwrap();
         if let Some(up) = up {

@@ -271,8 +271,10 @@ pub fn deck_of(
     format: DeckFormat,
     accuracy: f64,
 ) -> Result<String, ExportError> {
-    let parameters =
-        &Parameters { structure: with_inertia(&parameters.structure), ..parameters.clone() };
+    let parameters = &Parameters {
+        structure: with_inertia(&parameters.structure, &parameters.members()),
+        ..parameters.clone()
+    };
     let history = simulate(parameters, record);
     let width_sensitivity = width_sensitivity(&history.motion, parameters, record);
     export(

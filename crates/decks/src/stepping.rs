@@ -209,7 +209,10 @@ impl Stepped {
             return Err(ExportError::NoProgram);
         };
         // as decks hold it
-        let program = Parameters { structure: with_inertia(&program.structure), ..program };
+        let program = Parameters {
+            structure: with_inertia(&program.structure, &program.members()),
+            ..program
+        };
         let touches = stepping.at_touches();
         let given = parameters.structure;
         let adds_inertia =

@@ -161,8 +161,10 @@ pub fn verify(
     progress: &dyn Fn(usize, usize),
 ) -> Result<Verification, VerifyError> {
     // the same body in all three models
-    let parameters =
-        &Parameters { structure: with_inertia(&parameters.structure), ..parameters.clone() };
+    let parameters = &Parameters {
+        structure: with_inertia(&parameters.structure, &parameters.members()),
+        ..parameters.clone()
+    };
     let body = parameters.structure.body::<f64>();
     let history = simulate(parameters, record);
     let options =

@@ -25,7 +25,10 @@ pub(crate) fn rigid(
     {
         return None;
     }
-    let parameters = &Parameters { structure: with_inertia(structure), ..parameters.clone() };
+    let parameters = &Parameters {
+        structure: with_inertia(structure, &parameters.members()),
+        ..parameters.clone()
+    };
     let (own, changed) =
         join(|| simulate(parameters, record).motion, || slightly_wider(parameters, record));
     finding(record, DeckExpectation::rigid(parameters, record, &own, &changed, until))

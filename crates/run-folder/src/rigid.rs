@@ -172,7 +172,7 @@ pub(crate) fn drawing(figure: &Figure) -> Drawing<'_> {
 fn run_decks(parameters: &Parameters, rigid: &RigidRun) -> Result<RunTexts, FolderError> {
     let RigidRun { job, both, of_steps, .. } = rigid;
     let record = &job.record;
-    let structure = with_inertia(&parameters.structure);
+    let structure = with_inertia(&parameters.structure, &parameters.members());
     let given = structure == parameters.structure;
     let parameters = Parameters { structure, ..parameters.clone() };
     let own = (!given).then(|| simulate(&parameters, record));

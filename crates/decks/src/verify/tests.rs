@@ -7,7 +7,7 @@ use super::*;
 use crate::ACCURACY;
 use dynamics::spring::{Design, Springs};
 use parameters::predictability::width_sensitivity;
-use rocking::structure::Structure;
+use rocking::{members::Members, structure::Structure};
 
 fn parameters() -> Parameters {
     let chain = Design::from_kc(0.5, 0.2, 0.92, 40.0);
@@ -141,8 +141,10 @@ fn a_slight_change_of_width_moves_some_histories_and_not_others() {
     let record = Record::el_centro().truncated(10.0);
     let width_sensitivity =
         |p: &Parameters| width_sensitivity(&simulate(p, &record).motion, p, &record);
-    let frame =
-        Parameters::new(with_inertia(&Structure::a_frame(5.0, 1.5, 1000.0).unwrap()), &springs);
+    let frame = Parameters::new(
+        with_inertia(&Structure::a_frame(5.0, 1.5, 1000.0).unwrap(), &Members::default()),
+        &springs,
+    );
     assert!(width_sensitivity(&frame) > 0.01, "{}", width_sensitivity(&frame));
     let paper = width_sensitivity(&parameters());
     assert!(paper > 1e-6 && paper < 5e-4, "{paper}");

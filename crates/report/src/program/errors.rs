@@ -87,7 +87,7 @@ pub(super) fn errors<U>(
         let told = match errors.peak[0] {
             // the history's error gives way
             Some(_) if unjudged => {
-                format!("{peaks} {median} (median), {ninety} (90 %); not judged on earthquakes")
+                format!("{peaks} {median} (median), {ninety} (90 %); earthquakes not judged")
             }
             Some(_) => format!("{peaks} {median} (median), {ninety} (90 %){history}"),
             None => format!("most {name} are lost"),

@@ -56,11 +56,17 @@ fn the_page_of_a_frame_that_rocks_has_everything() {
     assert_eq!(page, page_of(&run, true));
 }
 
+/// Without the marks that keep numbers and units together.
+fn words_of(page: &str) -> String {
+    page.replace("<span class=\"q\">", "").replace("</span>", "")
+}
+
 #[test]
 fn a_frame_that_never_lifts_is_said_to_stand() {
     let page = page_of(&run(0.1, None), true);
     assert!(page.contains("The record does not lift the structure"));
-    assert!(page.contains("its peak is 0.03129 g, uplift takes 0.1 g"), "{page}");
+    let words = words_of(&page);
+    assert!(words.contains("its peak is 0.03129 g, uplift takes 0.1 g"), "{words}");
     // numbers of figures are in base 64, where three letters may be any
     let read = page.split("<script").map(|part| part.rsplit("</script>").next().unwrap_or(part));
     assert!(read.into_iter().all(|part| !part.contains("NaN")));
@@ -69,7 +75,7 @@ fn a_frame_that_never_lifts_is_said_to_stand() {
 #[test]
 fn a_block_that_overturns_is_said_to_and_marked() {
     let block = "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 1000.0\n";
-    let page = page_of(&run(2.5, Some(block)), true);
+    let page = words_of(&page_of(&run(2.5, Some(block)), true));
     assert!(page.contains("The structure overturns at t = 4.4"));
     assert!(page.contains("overturned at t = 4.4"));
 }
@@ -281,7 +287,8 @@ fn a_wall_with_a_tendon_is_answered_with_its_tendon() {
     let written = Written { folder: "out", report: true, decks: true, left_out: &[] };
     let screen = screen(&said, &written);
     assert!(screen.contains("lifts beyond 0.9867 g, without tendon 0.6667 g"), "{screen}");
-    assert!(screen.contains("which are not made for dampers"), "{screen}");
+    let words = screen.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("others, which are not made for dampers, tendons"), "{screen}");
     assert!(screen.lines().count() <= 30 && screen.lines().all(|l| l.chars().count() <= 98));
     // standing, it asks for m a_g/(m g + T)
     let needed = said.friction_needed.unwrap();
