@@ -11,26 +11,14 @@ mod force_name;
 mod message;
 mod not_done;
 mod of_steps;
+mod weight;
 
 pub use deck_end::DeckEnd;
 pub use force_name::ForceName;
 pub use message::{HARDLY_ROCKS, apart_words};
 pub use not_done::NotDone;
 pub use of_steps::{NotToBeUsed, ProgramAdvice, ProgramFault};
-
-/// How much a finding weighs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Weight {
-    /// What the run was asked.
-    Answer,
-    /// Good to know.
-    Note,
-    /// Numbers need judgement.
-    Warning,
-    /// Numbers must not be used as they are.
-    Fault,
-}
+pub use weight::Weight;
 
 /// Which of the two models.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
