@@ -9,7 +9,10 @@ use super::*;
 use crate::stepping::EvenSteps;
 use dynamics::spring::{Design, Springs};
 use fixed_steps::Integrator;
-use rocking::structure::Structure;
+use rocking::{
+    members::{Damper, Members},
+    structure::Structure,
+};
 
 fn springs(hz: f64) -> Springs<Design<f64>> {
     let chain = |mu, k, hz| Design::from_kc(mu, k, 0.92, hz);
@@ -86,6 +89,24 @@ fn opensees_decks_hold_every_number_to_the_last_bit() {
             let same = |x: &&f64| **x == number || (*x / number - 1.0).abs() < 1e-15;
             assert!(found.iter().any(|x| same(&x)), "{format:?}: {number} is missing");
         }
+    }
+}
+
+/// I_cg of a deck: as given, but for a body that has none and for one with dampers that has little.
+#[test]
+fn a_deck_has_the_rotational_inertia_that_its_body_needs() {
+    let m_r2 = 680.1e3 * (61.0 * 61.0 + 6.1 * 6.1);
+    let damped = Members { damper: Some(Damper { c: 1e6 }), ..Members::default() };
+    for (given, members, share) in [
+        (0.0, Members::default(), 1e-5),
+        (2e-5, Members::default(), 2e-5),
+        (0.0, damped, 5e-4),
+        (2e-5, damped, 5e-4),
+        (5e-3, damped, 5e-3),
+    ] {
+        let structure = Structure { rotational_inertia_kgm2: given * m_r2, ..Structure::paper() };
+        let held = with_inertia(&structure, &members).rotational_inertia_kgm2;
+        assert!((held / (share * m_r2) - 1.0).abs() < 1e-12, "{given} {members:?}: {held}");
     }
 }
 
