@@ -14,7 +14,7 @@
 
 use crate::answers::{MemberHistory, ModelComparison};
 use dynamics::compare::Match;
-use dynamics::fem::{Demands, History, HistoryOutcome, between_landings};
+use dynamics::fem::{Demands, History, between_landings};
 use frames::design_forces::{ForcesTogether, HeldForce};
 use results::{DesignForce, DesignForces};
 use rocking::{
@@ -64,10 +64,11 @@ pub fn design_forces(
                 Some(with) => peaks(&with.matched, &with.history, &with.demands),
                 None => peaks(&both.matched, &both.fem, &both.demands),
             };
-            let whole = followed(both.answer()) && followed(&softer.history);
+            let ends = [both.answer(), &softer.history].map(|of| of.outcome.ends_early());
             let other = peaks(&softer.matched, &softer.history, &softer.demands);
             let force = |k: usize| {
-                let change = relative(own[k].value, other[k].value, least).filter(|_| whole);
+                let change =
+                    relative(own[k].value, other[k].value, least).filter(|_| ends == [None; 2]);
                 DesignForce::measured(own[k].value, own[k].time, change)
             };
             (force(0), [1, 2, 3].map(force))
@@ -101,8 +102,7 @@ pub fn design_forces(
             (force(0), [1, 2, 3].map(force))
         }
     };
-    let half = 0.5 * body.mass * GRAVITY;
-    let at_rest = GroundRow::new(kind, body, 0.0, [[0.0, half]; 2]);
+    let at_rest = GroundRow::new(kind, body, 0.0, [[0.0, 0.5 * body.mass * GRAVITY]; 2]);
     if kind == Kind::AFrame {
         for (force, k) in rows.iter_mut().zip(1..) {
             force.at_rest = force.at_rest.or(Some(at_rest.largest(k)));
@@ -114,11 +114,6 @@ pub fn design_forces(
         Kind::Block => DesignForces { column_base_moment_nm: moment, ..all },
         Kind::AFrame => DesignForces { apex_moment_nm: moment, sole_shear_n: Some(sole), ..all },
     }
-}
-
-/// Whether a history was followed to the end of its record, or to an overturning.
-fn followed(history: &History) -> bool {
-    !matches!(history.outcome, HistoryOutcome::WorkBound { .. } | HistoryOutcome::Unstable { .. })
 }
 
 /// A share of the weight below which a force is rounding.

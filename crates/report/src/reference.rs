@@ -219,7 +219,7 @@ fn of_members(structure: &Structure, record: &Record, with: &MemberHistory) -> F
         },
         Fate::Failed => Finding::NoAnswer {
             model: FindingModel::Members,
-            time_s: ends_early(&with.history).unwrap_or(followed_s),
+            time_s: with.history.outcome.ends_early().unwrap_or(followed_s),
         },
         Fate::Rocked | Fate::LeftGround => Finding::Stands {
             share_of_overturning: answer.peak_ratio,
@@ -296,14 +296,6 @@ pub fn histories(both: &ModelComparison) -> Vec<Finding> {
         }
     }
     all
-}
-
-/// When a history ends that could not be followed to its record's end (s).
-pub(crate) fn ends_early(history: &fem::History) -> Option<f64> {
-    match history.outcome {
-        HistoryOutcome::WorkBound { time } | HistoryOutcome::Unstable { time } => Some(time),
-        _ => None,
-    }
 }
 
 fn ended(model: FindingModel, history: &fem::History) -> Option<Finding> {

@@ -1,6 +1,5 @@
 //! Largest displacements of a rigid body, as an engineer quotes them.
 
-use crate::reference;
 use dynamics::{compare::Match, fem::History};
 use parameters::answers::ModelComparison;
 use results::{PeakPair, Peaks};
@@ -50,10 +49,7 @@ pub(super) fn peaks_to(
         springs: springs(m, &both.fem),
         springs_end_s: None,
         with_members: both.with.as_ref().map(|with| springs(&with.matched, &with.history)),
-        with_members_end_s: both
-            .with
-            .as_ref()
-            .and_then(|with| reference::ends_early(&with.history)),
+        with_members_end_s: both.with.as_ref().and_then(|with| with.history.outcome.ends_early()),
         foretold: None,
     }
 }
