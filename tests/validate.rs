@@ -322,3 +322,45 @@ fn simulate_tells_conditioning_and_regime_on_stderr() {
     let stderr = said("0.05");
     assert!(stderr.contains("the feet would slide: friction of 0."), "{stderr}");
 }
+
+/// The springs for a program's steps, judged in an emulation of them; what they are for is said.
+#[test]
+fn springs_for_a_program_are_judged_in_its_steps() {
+    let dir = folder();
+    let structure = Structure::paper();
+    let case = "[structure]\nkind = 'aframe'\nheight_m = 61\nwidth_m = 12.2\nmass_kg = 680.1e3\n";
+    fs::write(dir.path().join("case.toml"), case).unwrap();
+    let run = ["run", "case.toml", "--quiet", "--no-figures", "--out", "run", "--step", "0.002"];
+    assert!(tune(dir.path(), &[&run[..], &["--integrator", "trbdf2"]].concat()).status.success());
+    let judge = |stepping: &str| {
+        let args = ["validate", "--parameters", "run/parameters.json", "--quiet", "--no-figures"];
+        let more = ["--synthetic", "12", "--seed", "3", "--stepping", stepping, "--out", stepping];
+        let output = tune(dir.path(), &[&args[..], &more].concat());
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let json = fs::read(dir.path().join(stepping).join("validate.json")).unwrap();
+        let found: Value = serde_json::from_slice(&json).unwrap();
+        (String::from_utf8(output.stdout).unwrap(), found)
+    };
+    let parameters = fs::read(dir.path().join("run/parameters.json")).unwrap();
+    let parameters: Value = serde_json::from_slice(&parameters).unwrap();
+    let (said, even) = judge("even");
+    assert!(said.contains("steps: a program, TRBDF2, 0.002 s each, emulated"), "{said}");
+    assert_eq!(even["vertical"], parameters["program"]["vertical"]);
+    assert_eq!(even["program"]["step_s"], 0.002);
+    assert_eq!(even["structure"]["height_m"].as_f64(), Some(structure.height_m));
+    let (said, touches) = judge("touches");
+    assert!(said.contains("20 substeps at touches"), "{said}");
+    let (said, events) = judge("events");
+    assert!(!said.contains("emulated"), "{said}");
+    assert_eq!((&events["vertical"], &events["program"]), (&parameters["vertical"], &Value::Null));
+    let median = |of: &Value| of["nrmse_well_conditioned"]["median"].as_f64().unwrap();
+    assert!(median(&even) > 3.0 * median(&touches), "{even} {touches}");
+    assert!(median(&touches) > 3.0 * median(&events), "{touches} {events}");
+    assert!(even["energy_residual_max"].is_null() && events["energy_residual_max"].is_number());
+
+    // parameters without such springs
+    let output = validate(dir.path(), &["--synthetic", "2", "--stepping", "even"]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!((output.status.code(), said.lines().count()), (Some(2), 1), "{said}");
+    assert!(said.contains("no springs for steps of one size"), "{said}");
+}

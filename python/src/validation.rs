@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use dynamics::fem::Control;
 use pyo3::{prelude::*, types::PyTuple};
 use rocking::synthetic;
-use validation::{self as core, Validator};
+use validation::{self as core, JudgedModel, Validator};
 
 use strong_motion::{ReadOptions, RecordError};
 
@@ -126,9 +126,8 @@ pub fn validate(
     let judge = Validator {
         body,
         restitution,
-        springs: springs.chains(),
         duration_s: duration,
-        control: Control::default(),
+        model: JudgedModel::Events { springs: springs.chains(), control: Control::default() },
     };
     let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
     let validation = interruptible(py, |stop| {

@@ -147,7 +147,8 @@ fn stepping<U>(
                 Err(ExportError::AnotherProgram { integrator })
             }
         },
-        (None, None) if o.format.is_sap2000() => Err(ExportError::NoProgram),
+        // which has its reason
+        (None, None) if o.format.is_sap2000() => Ok(Stepping::Even),
         _ => Ok(Stepping::Events),
     }
 }

@@ -1,5 +1,6 @@
 //! `tune validate`: springs judged over many records, from files and made from a seed.
 
+mod model;
 mod tables;
 
 use std::{
@@ -10,9 +11,11 @@ use std::{
 use clap::Args;
 use serde::Serialize;
 
+use self::model::{JudgedProgram, JudgedSprings};
 use super::{CommandError, common, progress::Progress, run::threads, terminal};
 use cases::LONGEST_S;
-use dynamics::{fem, spring::ChainRow};
+use decks::Stepping;
+use dynamics::spring::ChainRow;
 use files::message::one_line;
 use parameters::Parameters;
 use rocking::{conditioning::ILL_CONDITIONED, structure::Structure, synthetic};
@@ -66,6 +69,10 @@ pub struct ValidateOptions {
     /// equation 2, unless given
     #[arg(long, allow_negative_numbers = true)]
     restitution: Option<f64>,
+    /// events: the springs for steps that follow touches; even, touches: those for the program of
+    /// `tune run`, in an emulation of its steps, as `tune export` names them
+    #[arg(long, value_name = "HOW", default_value = "events")]
+    stepping: Stepping,
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
@@ -195,6 +202,9 @@ struct Made {
 struct ValidationReport<'a> {
     structure: Structure,
     restitution: f64,
+    /// Of a program with steps of one size.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    program: Option<&'a JudgedProgram>,
     vertical: ChainRow,
     horizontal: ChainRow,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -214,7 +224,8 @@ const FILES: &[&str] =
 
 pub fn run(o: &ValidateOptions) -> Result<(), CommandError> {
     of_one_run(&o.parameters)?;
-    let parameters = Parameters::read(&o.parameters)?;
+    let judged = JudgedSprings::new(Parameters::read(&o.parameters)?, o.stepping)?;
+    let parameters = &judged.parameters;
     let body = parameters.structure.body::<f64>();
     let restitution =
         common::restitution(o.restitution)?.unwrap_or_else(|| parameters.restitution());
@@ -239,14 +250,17 @@ pub fn run(o: &ValidateOptions) -> Result<(), CommandError> {
             left_out.len()
         )));
     }
-    let line = source.line(left_out.len());
-    let judge = Validator {
-        body,
-        restitution,
-        springs: parameters.chains(),
-        duration_s: o.duration,
-        control: fem::Control::default(),
-    };
+    let records = source.line(left_out.len());
+    let line = judged.steps.iter().fold(records, |line, steps| format!("{line}; {steps}"));
+    if !parameters.members().is_none() {
+        terminal::stderr(format_args!(
+            "dampers, tendon and friction are left out: both models are of the rigid body alone"
+        ));
+    }
+    if let Some(why) = judged.not_to_be_used {
+        terminal::stderr(format_args!("these springs are {why}"));
+    }
+    let judge = Validator { body, restitution, duration_s: o.duration, model: judged.model };
     let progress = Progress::new("records", o.quiet);
     let validation = judge.judge_all(
         source.len(),
@@ -258,6 +272,7 @@ pub fn run(o: &ValidateOptions) -> Result<(), CommandError> {
     let report = ValidationReport {
         structure: parameters.structure,
         restitution,
+        program: judged.program.as_ref(),
         vertical: parameters.vertical,
         horizontal: parameters.horizontal,
         synthetic: o.synthetic.map(|_| Made { count: source.synthetic, seed: source.seed }),
@@ -276,7 +291,7 @@ pub fn run(o: &ValidateOptions) -> Result<(), CommandError> {
     )?;
     write_file(&folder.path().join("validate.csv"), &tables::csv(&validation)?)?;
     if !o.no_figures {
-        draw(folder.path(), &parameters, &validation)?;
+        draw(folder.path(), &judged, &validation)?;
     }
     folder.finish()?;
     terminal::stdout(format_args!("{line}\n{}\n", tables::terminal(&validation)))?;
@@ -302,7 +317,8 @@ fn check_duration(duration: Option<f64>) -> Result<(), CommandError> {
     }
 }
 
-fn draw(out: &Path, parameters: &Parameters, validation: &Validation) -> Result<(), CommandError> {
+fn draw(out: &Path, judged: &JudgedSprings, validation: &Validation) -> Result<(), CommandError> {
+    let parameters = &judged.parameters;
     let rows: Vec<figures::validation::ValidationPoint> = validation
         .records
         .iter()
@@ -321,8 +337,9 @@ fn draw(out: &Path, parameters: &Parameters, validation: &Validation) -> Result<
         &format!("{} record{}", rows.len(), if rows.len() == 1 { "" } else { "s" }),
         parameters.vertical.omega_n_hz,
     );
+    let steps = judged.steps.as_ref().map_or(String::new(), |steps| format!("\n{steps}"));
     figures::validation::draw(&figures::validation::ValidationFigure {
-        title: &format!("Finite elements on ground springs against Housner\n{of}"),
+        title: &format!("Finite elements on ground springs against Housner\n{of}{steps}"),
         rows: &rows,
         ks_distance: validation.all.ks_distance,
         well_conditioned: ILL_CONDITIONED,

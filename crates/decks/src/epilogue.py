@@ -40,7 +40,7 @@ def main():
     good = all(abs(found[key] - value) <= 0.01 * scale[key] for key, value in EXPECTED.items())
     print(f"OpenSees {ops.version()}, {rows[-1][0]:g} s: {steps.report()}; wrote {out}")
     if steps.refused:
-        print("  OpenSees' messages of failed convergence are those of the pairs repeated")
+        print("  OpenSees' messages of failed convergence are of steps that were repeated shorter")
     if COMPARED < SAMPLES:
         print(f"  compared to {(COMPARED - 1) * RECORD_DT:g} s: beyond, the motion cannot be predicted")
     for key, value in EXPECTED.items():

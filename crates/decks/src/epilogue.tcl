@@ -65,7 +65,7 @@ foreach {name column start} [checked] {
 }
 set good 1
 puts [format "OpenSees, %g s: %s" [lindex $rows end 0] [steps::report]]
-if {$steps::refused > 0} { puts "  OpenSees' messages of failed convergence are those of the pairs repeated" }
+if {$steps::refused > 0} { puts "  OpenSees' messages of failed convergence are of steps that were repeated shorter" }
 if {$compared < $samples} {
     puts [format "  compared to %g s: beyond, the motion cannot be predicted" [expr {($compared - 1) * $recordDt}]]
 }

@@ -46,7 +46,10 @@ use parameters::{
 use rocking::motion::Motion;
 pub use sap2000::sap_function;
 pub use step_count::deck_steps;
-pub use stepping::{SteppedDeck, Stepping, even_deck, samples_to, stepped_deck, stepped_history};
+pub use stepping::{
+    SteppedDeck, SteppedModel, Stepping, even_deck, samples_to, stepped_deck, stepped_history,
+    stepped_model,
+};
 use strong_motion::Record;
 
 /// The stepping routine of decks for openseespy: `class Steps`, in need of `math`, `sys` and `ops`.
@@ -215,6 +218,11 @@ pub enum ExportError {
             --for sap2000, etabs or opensees-even, and --step"
     )]
     NoProgram,
+    #[error(
+        "export: springs for steps of one size have the restitution of equation 2, {due:.4}, and \
+            this run has {asked}; leave restitution out, or give --stepping events"
+    )]
+    ProgramRestitution { asked: f64, due: f64 },
     #[error(
         "export: the springs of this run are for steps of {}, not for SAP2000; give tune run \
             --for sap2000 and --step",

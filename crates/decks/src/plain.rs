@@ -21,6 +21,14 @@ fn rows(places: &[NamedSprings]) -> impl Iterator<Item = [String; 6]> {
     })
 }
 
+/// What steps have besides their size.
+fn substeps(at_touches: usize) -> String {
+    match at_touches {
+        1 => String::new(),
+        count => format!(" with {count} substeps at touches"),
+    }
+}
+
 /// One line a unit, SI units in the header; last the steps that the springs are for.
 pub(super) fn csv(even: Option<&EvenSteps>, places: &[NamedSprings]) -> String {
     let mut text =
@@ -28,8 +36,7 @@ pub(super) fn csv(even: Option<&EvenSteps>, places: &[NamedSprings]) -> String {
     let steps = match even {
         None => "shortened towards touches".into(),
         Some(EvenSteps { step, integrator, touches, .. }) => {
-            let substeps = if *touches > 1 { " with substeps at touches" } else { "" };
-            format!("{}{substeps} by {integrator}", quantity(*step, "s"))
+            format!("{}{} by {integrator}", quantity(*step, "s"), substeps(*touches))
         }
     };
     for row in rows(places) {
@@ -57,8 +64,9 @@ pub(super) fn markdown(title: &str, even: Option<&EvenSteps>, places: &[NamedSpr
     );
     let steps = |even: &EvenSteps| {
         format!(
-            "These springs are for a program with steps of {} ({}).\n\n",
+            "These springs are for a program with steps of {}{} ({}).\n\n",
             quantity(even.step, "s"),
+            substeps(even.touches),
             even.integrator
         )
     };

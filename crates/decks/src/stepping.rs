@@ -14,7 +14,7 @@ use parameters::{
 };
 use results::NotToBeUsed;
 use rocking::{motion::Motion, scalar::GRAVITY, structure::Structure};
-use springs::fixed_steps::design;
+use springs::{fixed_steps::design, landing_simulation::differs_from_housner};
 use strong_motion::Record;
 
 use crate::{
@@ -206,7 +206,7 @@ pub(crate) struct Stepped {
 impl Stepped {
     pub(crate) fn new(parameters: &Parameters, stepping: Stepping) -> Result<Self, ExportError> {
         let (Some(row), Some(program)) = (&parameters.program, parameters.in_program()) else {
-            return Err(ExportError::NoProgram);
+            return Err(no_program(parameters));
         };
         // as decks hold it
         let program = Parameters {
@@ -279,11 +279,16 @@ impl Stepped {
         Ok(SteppedDeck { text, gives_up_s, until })
     }
 
-    /// The emulation's history on a record.
-    pub(crate) fn history(&self, record: &Record) -> FixedStepHistory {
+    /// The model, and how the emulation steps it.
+    fn model(&self) -> (FixedStepBody, StepSettings) {
         let body = self.parameters.structure.body();
         let model = FixedStepBody::new(&body, &self.parameters.chains());
-        let settings = self.steps.settings(body.mass * GRAVITY);
+        (model, self.steps.settings(body.mass * GRAVITY))
+    }
+
+    /// The emulation's history on a record.
+    pub(crate) fn history(&self, record: &Record) -> FixedStepHistory {
+        let (model, settings) = self.model();
         let analysis = FixedStepAnalysis::new(&model, settings, record.dt, &record.accel);
         FixedStepAnalysis { vertical: record.up(), ..analysis }.history()
     }
@@ -295,6 +300,39 @@ impl Stepped {
         let settled = -0.5 * body.mass * GRAVITY / chains.vertical.in_series();
         Expected::of_motion(motion, [motion.len(), compared], settled, 0.0)
     }
+}
+
+/// Why parameters have no springs for such a program.
+fn no_program(parameters: &Parameters) -> ExportError {
+    let (asked, body) = (parameters.restitution(), parameters.structure.body::<f64>());
+    match differs_from_housner(&body, asked) {
+        true => ExportError::ProgramRestitution { asked, due: body.restitution() },
+        false => ExportError::NoProgram,
+    }
+}
+
+/// A rigid body on the springs for a program with steps of one size.
+#[derive(Clone, Debug)]
+pub struct SteppedModel {
+    /// Its structure and springs, as parameters.
+    pub parameters: Parameters,
+    /// What is stepped.
+    pub model: FixedStepBody,
+    /// How.
+    pub settings: StepSettings,
+}
+
+/// The model that a deck of such a program has.
+///
+/// # Errors
+/// Parameters without springs for such a program.
+pub fn stepped_model(
+    parameters: &Parameters,
+    stepping: Stepping,
+) -> Result<SteppedModel, ExportError> {
+    let stepped = Stepped::new(parameters, stepping)?;
+    let (model, settings) = stepped.model();
+    Ok(SteppedModel { parameters: stepped.parameters, model, settings })
 }
 
 /// A rigid body's history on a record as the program that its springs are for would find it.

@@ -176,22 +176,21 @@ fn peaks(canvas: &mut Canvas, data: &ValidationFigure<'_>, frame: PanelFrame) {
 /// Error against the sensitivity of Housner's own answer: where it is large, no model can follow
 /// one to one.
 fn errors(canvas: &mut Canvas, data: &ValidationFigure<'_>, frame: PanelFrame) {
-    let x = Scale::log_around(
-        data.rows.iter().map(|row| row.sensitivity).chain([data.well_conditioned]),
-        10.0,
-    );
-    let panel =
-        Panel { frame, x, y: Scale::log_around(data.rows.iter().map(|row| row.nrmse), 10.0) };
+    // a body that never lifts has no history to compare
+    let rows = || data.rows.iter().filter(|row| row.sensitivity > 0.0);
+    let x =
+        Scale::log_around(rows().map(|row| row.sensitivity).chain([data.well_conditioned]), 10.0);
+    let panel = Panel { frame, x, y: Scale::log_around(rows().map(|row| row.nrmse), 10.0) };
     panel.axes(canvas, Some("sensitivity of Housner's history"), "NRMSE of u", 110.0);
     panel.upright(canvas, data.well_conditioned, Pen::new(GREY, 2.2).dashed());
     // Well conditioned first, so that the rarer toppled ones stay visible on top.
     let over = |row: &&ValidationPoint| row.overturned_housner || row.overturned_fem;
-    for row in data.rows.iter().filter(|row| !over(row)) {
+    for row in rows().filter(|row| !over(row)) {
         let finite = row.nrmse.is_finite() && row.sensitivity.is_finite();
         let mark = if finite { dot() } else { infinite() };
         mark.draw(canvas, panel.at_clamped(row.sensitivity, row.nrmse));
     }
-    for row in data.rows.iter().filter(over) {
+    for row in rows().filter(over) {
         toppled().draw(canvas, panel.at_clamped(row.sensitivity, row.nrmse));
     }
     let at = panel.at(data.well_conditioned, panel.y.high);

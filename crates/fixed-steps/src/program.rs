@@ -66,12 +66,15 @@ impl ProgramName {
     }
 
     /// Whether its decks can be set to this integrator. SAP2000's have Newmark's and
-    /// Hilber-Hughes-Taylor's; OpenSees' generalized alpha is not Chung and Hulbert's.
+    /// Hilber-Hughes-Taylor's, of alpha from 0 to -1/3; OpenSees' generalized alpha is not Chung and Hulbert's.
     pub fn has(self, integrator: Integrator) -> bool {
         match self {
-            Self::Sap2000 | Self::Etabs => {
-                matches!(integrator, Integrator::Newmark { .. } | Integrator::Hht { .. })
-            }
+            Self::Sap2000 | Self::Etabs => match integrator {
+                Integrator::Newmark { .. } => true,
+                // users write -0.3333 for -1/3
+                Integrator::Hht { alpha } => alpha > -1.0 / 3.0 - 1e-3,
+                _ => false,
+            },
             Self::OpenSees => !matches!(integrator, Integrator::GeneralizedAlpha { .. }),
         }
     }
@@ -79,7 +82,7 @@ impl ProgramName {
     /// Those integrators, as users give them.
     pub fn integrators(self) -> &'static str {
         match self {
-            Self::Sap2000 | Self::Etabs => "hht:ALPHA or newmark:GAMMA:BETA",
+            Self::Sap2000 | Self::Etabs => "hht:ALPHA from -1/3 to 0, or newmark:GAMMA:BETA",
             Self::OpenSees => "backward-euler, trbdf2, hht:ALPHA or newmark:GAMMA:BETA",
         }
     }
@@ -185,6 +188,9 @@ mod tests {
             assert_eq!(name.to_string().parse(), Ok(name));
         }
         assert_eq!("SAP2000".parse(), Ok(ProgramName::Sap2000));
+        let hht = |alpha: f64| ProgramName::Etabs.has(Integrator::Hht { alpha });
+        assert_eq!([-0.4, -0.3333, -0.3334, 0.0].map(hht), [false, true, true, true]);
+        assert!(ProgramName::OpenSees.has(Integrator::Hht { alpha: -0.4 }));
         assert!("abaqus".parse::<ProgramName>().unwrap_err().to_string().contains("opensees-even"));
     }
 

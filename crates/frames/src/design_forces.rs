@@ -56,11 +56,15 @@ pub enum ForceKind {
     SoleShear,
     /// Vertical force of the ground on all corners, upwards (N).
     SoleVertical,
+    /// Of the tendon that pulls most (N).
+    Tendon,
+    /// Of the damper with the largest force on the structure, upwards (N).
+    Damper,
 }
 
 impl ForceKind {
     /// All of them, in the order in which they are told.
-    pub(crate) const ALL: [Self; 7] = [
+    pub(crate) const ALL: [Self; 9] = [
         Self::ColumnShear,
         Self::ColumnBaseMoment,
         Self::ColumnTopMoment,
@@ -68,6 +72,8 @@ impl ForceKind {
         Self::AxialTension,
         Self::SoleShear,
         Self::SoleVertical,
+        Self::Tendon,
+        Self::Damper,
     ];
 
     /// In words.
@@ -80,6 +86,8 @@ impl ForceKind {
             Self::AxialTension => "tension",
             Self::SoleShear => "shear at the sole, footing included",
             Self::SoleVertical => "vertical force at the sole, footing included",
+            Self::Tendon => "tendon force",
+            Self::Damper => "damper force",
         }
     }
 
@@ -325,7 +333,9 @@ fn rigid_peak(rigid: &RigidForces, kind: ForceKind, dt: f64) -> Option<ForcePeak
         ForceKind::ColumnTopMoment
         | ForceKind::AxialTension
         | ForceKind::SoleShear
-        | ForceKind::SoleVertical => {
+        | ForceKind::SoleVertical
+        | ForceKind::Tendon
+        | ForceKind::Damper => {
             return None;
         }
     };

@@ -25,6 +25,7 @@ mod lu;
 mod model;
 mod newton;
 mod run;
+mod running_peaks;
 mod series;
 mod step;
 
@@ -32,6 +33,7 @@ pub use demands::FrameDemand;
 pub use filter::{low_pass, resolves};
 pub use history::{ContactChange, ElasticHistory, GroundForces};
 pub use model::CornerState;
+pub use running_peaks::{RunningPeaks, StepForces};
 pub use series::{FineColumn, FineForces, FineSeries};
 
 use super::{

@@ -18,7 +18,7 @@ use rocking::{
     structure::Body,
 };
 use strong_motion::Record;
-use validation::{Validation, Validator, verdict::Verdict};
+use validation::{JudgedModel, Validation, Validator, verdict::Verdict};
 
 /// Both models' answers to one record.
 pub struct ModelComparison {
@@ -105,9 +105,11 @@ pub fn validate(parameters: &Parameters, records: &[Record]) -> Validation {
     let judge = Validator {
         body: parameters.structure.body(),
         restitution: parameters.restitution(),
-        springs: parameters.chains(),
         duration_s: None,
-        control: fem::Control::default(),
+        model: JudgedModel::Events {
+            springs: parameters.chains(),
+            control: fem::Control::default(),
+        },
     };
     let Ok(validation) =
         judge.judge_all(records.len(), |i| Ok::<_, Infallible>(records[i].clone()), |_| ());

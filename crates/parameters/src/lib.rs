@@ -260,6 +260,11 @@ impl Parameters {
         {
             return Err(ParametersError::Schema { path: path.to_string(), schema });
         }
+        // of a damaged file it is not known what it is of
+        if let Err(e) = serde_json::from_str::<serde::de::IgnoredAny>(text) {
+            let message = one_line(e.to_string().split(" at line").next().unwrap_or_default());
+            return Err(ParametersError::Parse { path: path.to_string(), line: e.line(), message });
+        }
         if elastic::ElasticParameters::is(text) {
             return Err(ParametersError::Elastic { path: path.to_string() });
         }

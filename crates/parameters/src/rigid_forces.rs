@@ -8,14 +8,23 @@
 //!                   shear moment/|D|;  standing, both feet take F/2:  moment W b/2
 //! ```
 //!
-//! An impact's impulse is not among them. On springs alone, near a touch-down, the body bears its
-//! weight under the vertical motion. A force holds if, later than 0.1/p after every
+//! An impact's impulse is not among them. On springs alone, near a touch-down, the body bears what
+//! equation (1) says of its motion, or what it bears standing. A force holds if, later than 0.1/p after every
 //! touch-down, its largest value on the springs is within 5 % of Housner's.
 
+mod ground_row;
+mod members;
+mod near_landings;
+
+use self::{
+    ground_row::{GroundRow, standing_feet},
+    members::member_forces,
+    near_landings::near_landings,
+};
 use crate::answers::{MemberHistory, ModelComparison};
 use dynamics::compare::Match;
 use dynamics::fem::{Demands, History, between_landings};
-use frames::design_forces::{ForcesTogether, HeldForce};
+use frames::design_forces::HeldForce;
 use results::{DesignForce, DesignForces};
 use rocking::{
     housner::Rocking,
@@ -26,10 +35,6 @@ use rocking::{
     structure::{Body, Kind},
 };
 use strong_motion::Record;
-
-/// Column shear, moment and axial force: of a block about its base, of an A-frame's legs at the
-/// apex.
-type ForceRow = [f64; 3];
 
 /// The forces of a run. Where Housner's body cannot tell them, with members or beyond the end of
 /// his solution, they are those of the history on springs, which `softer` follows on springs of a
@@ -53,10 +58,13 @@ pub fn design_forces(
                 let samples = until([matched.overturned_fem_s, None]).min(history.motion.len());
                 let kept = all_between(body, dt, history, samples);
                 let mut peaks = on_springs(kind, body, dt, (history, demands), &kept);
-                let all = &history.forces.both[0][..samples];
-                if let Some((i, n)) = borne_in_landings(body.mass, record.up(), all, &kept) {
-                    let side = history.forces.both[1][i].signum();
-                    bear(kind, body, (i as f64 * dt, n, side), &mut peaks);
+                let (of, members) = ((history, demands), both.with.is_some());
+                let near = near_landings((kind, body), record, of, &kept, members);
+                for (i, row) in near.into_iter().filter(|(i, _)| *i < samples) {
+                    for (k, peak) in peaks.iter_mut().enumerate() {
+                        let value = row.largest(k);
+                        *peak = peak.larger(TimedPeak { value, time: i as f64 * dt });
+                    }
                 }
                 peaks
             };
@@ -109,7 +117,8 @@ pub fn design_forces(
         }
     }
     let [shear, moment, axial] = rows.map(Some);
-    let all = DesignForces { column_shear_n: shear, axial_n: axial, ..DesignForces::default() };
+    let of_members = member_forces(both, softer, dt);
+    let all = DesignForces { column_shear_n: shear, axial_n: axial, ..of_members };
     match kind {
         Kind::Block => DesignForces { column_base_moment_nm: moment, ..all },
         Kind::AFrame => DesignForces { apex_moment_nm: moment, sole_shear_n: Some(sole), ..all },
@@ -150,11 +159,9 @@ fn of_housner(
         let ground = (at(&record.accel), 1.0 + at(record.up()));
         let rests = theta == 0.0 && rate == 0.0;
         let stands = rests && regime::stands(body, ground);
-        let (b, h) = (body.half_width, body.height);
         // forces of the left foot and of the right one
         let feet = if stands {
-            let apart = f * h / b;
-            [[0.5 * f, 0.5 * (n + apart)], [0.5 * f, 0.5 * (n - apart)]]
+            standing_feet(body, body.mass * GRAVITY, ground)
         } else if theta > 0.0 || (theta == 0.0 && rate > 0.0) || (rests && ground.0 < 0.0) {
             [[0.0; 2], [f, n]]
         } else {
@@ -163,61 +170,6 @@ fn of_housner(
         GroundRow { stands, ..GroundRow::new(kind, body, theta, feet) }
     };
     forces.into_iter().enumerate().take(samples).map(row).collect()
-}
-
-/// Forces at one instant.
-struct GroundRow {
-    /// Whether both feet bear.
-    stands: bool,
-    /// On the body, horizontally (N).
-    sole_shear: f64,
-    /// Of the left leg and of the right one; of a block the same twice.
-    legs: [ForceRow; 2],
-}
-
-impl GroundRow {
-    /// For forces (H, N) of the left and the right foot of a body that leans by theta.
-    fn new(kind: Kind, body: &Body<f64>, theta: f64, feet: [[f64; 2]; 2]) -> Self {
-        let [[left_h, left_n], [right_h, right_n]] = feet;
-        let sole_shear = left_h + right_h;
-        if kind == Kind::Block {
-            let moment = (left_n - right_n) * body.half_width;
-            let row = [sole_shear, moment, -(left_n + right_n)];
-            return Self { stands: false, sole_shear, legs: [row; 2] };
-        }
-        let (sin, cos) = theta.sin_cos();
-        let legs = [(-1.0, feet[0]), (1.0, feet[1])].map(|(side, [h, n])| {
-            // from the mass to the foot, turned clockwise with the body
-            let (x, z) = (side * body.half_width, -body.height);
-            let (dx, dz) = (x * cos + z * sin, z * cos - x * sin);
-            let length = body.radius();
-            let moment = h * dz - n * dx;
-            [moment / length, moment, (h * dx + n * dz) / length]
-        });
-        Self { stands: false, sole_shear, legs }
-    }
-
-    /// The leg where a force of a leg is the larger one: 0 shear, 1 moment, 2 axial force.
-    fn leg(&self, force: usize) -> ForceRow {
-        let [left, right] = self.legs;
-        if left[force].abs() >= right[force].abs() { left } else { right }
-    }
-
-    /// Shear at the sole (0), column shear (1), moment (2), axial force (3).
-    fn largest(&self, k: usize) -> f64 {
-        k.checked_sub(1).map_or(self.sole_shear, |force| self.leg(force)[force])
-    }
-
-    /// What acts together with the same; with the shear at the sole, in the leg that bears the
-    /// larger axial force.
-    fn together(&self, kind: Kind, k: usize) -> ForcesTogether {
-        let [column_shear_n, moment, axial_n] = self.leg(k.checked_sub(1).unwrap_or(2));
-        let (column_base_moment_nm, apex_moment_nm) = match kind {
-            Kind::Block => (moment, None),
-            Kind::AFrame => (0.0, Some(moment)),
-        };
-        ForcesTogether { column_shear_n, axial_n, column_base_moment_nm, apex_moment_nm }
-    }
 }
 
 /// Largest shear at the sole, column shear, moment and axial force of a history on springs, over
@@ -246,37 +198,6 @@ fn on_springs(
         }
     }
     peaks
-}
-
-/// Near landings, at the other samples than `kept`, what a body that presses on the ground (`sum`,
-/// N) bears at least: its weight under the vertical motion (m/s2). The largest of it (N), and its
-/// sample; nothing without a vertical motion. A landing adds its impulse, which is not a design
-/// force.
-fn borne_in_landings(mass: f64, up: &[f64], sum: &[f64], kept: &[usize]) -> Option<(usize, f64)> {
-    let near = |i: &usize| kept.binary_search(i).is_err() && sum[*i] > 0.0;
-    let borne = |i: usize| (i, mass * (GRAVITY + up[i]));
-    let all = (0..sum.len().min(up.len())).filter(near).map(borne);
-    all.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, n)| *n > 0.0)
-}
-
-/// A vertical force N at a time (s), on the left corner of a block (side 1) or on the right one
-/// (-1), or on one leg of a frame, where its peaks are less.
-fn bear(
-    kind: Kind,
-    body: &Body<f64>,
-    (time, n, side): (f64, f64, f64),
-    peaks: &mut [TimedPeak; 4],
-) {
-    let [_, _, moment, axial] = peaks;
-    let (along, arm) = match kind {
-        Kind::Block => (n, n * body.half_width),
-        Kind::AFrame => (n * body.height / body.radius(), 0.0),
-    };
-    for (peak, value) in [(moment, side * arm), (axial, -along)] {
-        if value.abs() > peak.value.abs() {
-            *peak = TimedPeak { value, time };
-        }
-    }
 }
 
 #[cfg(test)]
@@ -336,24 +257,6 @@ mod tests {
         let axial = all.axial_n.unwrap();
         assert!((axial.value.unwrap() / (-300.0 * GRAVITY) - 1.0).abs() < 1e-9, "{axial:?}");
         assert!(axial.change.unwrap() < 1e-3, "{axial:?}");
-    }
-
-    /// Near landings a block bears m (g + a_v) at least, on one corner, while it presses.
-    #[test]
-    fn a_landing_hides_no_vertical_motion() {
-        let up = [0.0, 0.0, 18.0, 20.0, 0.0];
-        let sum = [6e3, 6e3, 9e3, 0.0, 6e3];
-        let found = borne_in_landings(640.0, &up, &sum, &[0, 1, 4]);
-        assert_eq!(found, Some((2, 640.0 * (GRAVITY + 18.0))));
-        assert_eq!(borne_in_landings(640.0, &[], &sum, &[0]), None);
-        let body = Structure::block(2.1, 0.45, 640.0).unwrap().body();
-        let mut peaks = [TimedPeak { value: 12e3, time: 1.0 }; 4];
-        bear(Kind::Block, &body, (2.0, 17.8e3, -1.0), &mut peaks);
-        assert_eq!(peaks[3], TimedPeak { value: -17.8e3, time: 2.0 });
-        assert_eq!([peaks[0].value, peaks[2].value], [12e3; 2]);
-        peaks[2].value = 1e3;
-        bear(Kind::Block, &body, (2.0, 17.8e3, -1.0), &mut peaks);
-        assert!((peaks[2].value + 17.8e3 * 0.225).abs() < 1e-9);
     }
 
     /// A block's base moment is at most W b, which it reaches when it lifts; its shear then is m g

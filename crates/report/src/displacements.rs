@@ -20,7 +20,7 @@ pub(crate) const LARGEST: &str = "largest by";
 /// What rows of parts of the top's displacement begin with.
 pub(crate) const PART: &str = "  of it";
 /// Share of the top's displacement below which it is not said.
-const NOT_SAID: f64 = 0.02;
+const NOT_SAID: f64 = 0.005;
 
 const ROWS: [PeakRow; 9] = [
     ("top displacement", |p| Some(p.top_displacement_m), meters, at_top),

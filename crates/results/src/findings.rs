@@ -354,6 +354,8 @@ impl Finding {
         match *self {
             Self::ForetoldUpTo { time_s, .. } | Self::SlidesOn { time_s, .. } => Some(time_s),
             Self::IllConditioned { holds_to_s, .. } => holds_to_s,
+            // nothing was asked beyond it
+            Self::PivotLeavesGround { time_s } => Some(time_s),
             Self::DeckJudged { judged_s, end: DeckEnd::Foretold | DeckEnd::Slides, .. } => {
                 Some(judged_s)
             }

@@ -151,6 +151,12 @@ pub struct DesignForces {
     /// Vertical force at the sole, footing included, upwards.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sole_vertical_n: Option<DesignForce>,
+    /// Of the tendon that pulls most.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tendon_n: Option<DesignForce>,
+    /// Of the damper with the largest force on the structure, upwards.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub damper_n: Option<DesignForce>,
 }
 
 impl DesignForces {
@@ -166,6 +172,8 @@ impl DesignForces {
             &mut self.apex_moment_nm,
             &mut self.sole_shear_n,
             &mut self.sole_vertical_n,
+            &mut self.tendon_n,
+            &mut self.damper_n,
         ];
         for force in all.into_iter().flatten() {
             force.predictable = Some(until.is_none_or(|until| force.time_s <= until));
@@ -184,6 +192,8 @@ impl DesignForces {
             (ForceName::ApexMoment, self.apex_moment_nm),
             (ForceName::SoleShear, self.sole_shear_n),
             (ForceName::SoleVertical, self.sole_vertical_n),
+            (ForceName::Tendon, self.tendon_n),
+            (ForceName::Damper, self.damper_n),
         ]
         .into_iter()
         .filter_map(|(name, force)| Some((name, force?)))

@@ -18,5 +18,5 @@ pub use peaks::{ForetoldPeaks, PartsOfTop, PeakPair, PeakTimes, Peaks};
 
 /// Up to when a motion can be foretold (s), if that is not all of it.
 pub fn predictable_to(findings: &[FiledFinding]) -> Option<f64> {
-    findings.iter().find_map(|filed| filed.finding.predictable_to())
+    findings.iter().filter_map(|filed| filed.finding.predictable_to()).reduce(f64::min)
 }

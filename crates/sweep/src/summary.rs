@@ -256,7 +256,8 @@ pub fn compare(comparison: &Comparison) -> Vec<String> {
         "Rigid against springs, {} histories ({} left out): both say the same of overturning in \
          {:.2} % (Housner alone overturns {}, springs alone {}); \
          peaks of theta/alpha differ by {} (median) and {} (90 %), their distributions by {:.4} \
-         (KS); NRMSE of u {} (median), {} (90 %).",
+         (KS); NRMSE of u {} (median), {} (90 %), of motions that cannot be predicted, too: tune \
+         validate tells these apart.",
         all.n,
         all.left_out,
         100.0 * all.agreement().unwrap_or(0.0),

@@ -33,6 +33,9 @@
 //!   a disagreement on overturning, an infinite NRMSE in the quantiles, and in D a peak at the
 //!   other end of the scale than Housner's.
 //!
+//! - **Steps of one size** (`even`) are those of a program that is emulated. Their histories have no
+//!   energy account and no velocities: forces are not compared.
+//!
 //! - **Vertical ground motion is left out** by both models, even where a record has it: the
 //!   derivative that tells which histories can be compared is known without it alone.
 //!
@@ -42,6 +45,7 @@
 // what is printed goes through the program's `commands/terminal`
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
+mod even;
 mod peaks;
 mod row;
 mod statistics;
@@ -57,6 +61,7 @@ use dynamics::{
     fem::Control,
     spring::{Chain, Springs},
 };
+use fixed_steps::{FixedStepBody, StepSettings};
 use rocking::structure::Body;
 use strong_motion::Record;
 
@@ -65,16 +70,36 @@ use strong_motion::Record;
 const BATCH: usize = 64;
 const BATCH_A_THREAD: usize = 32;
 
+/// Springs under a body, and how their histories are stepped.
+#[derive(Clone, Copy, Debug)]
+pub enum JudgedModel {
+    /// In steps that follow every touch.
+    Events {
+        /// The springs.
+        springs: Springs<Chain>,
+        /// How exact the steps are.
+        control: Control,
+    },
+    /// In steps of one size, as a program takes them that is emulated.
+    Even {
+        /// The body as that program has it, on its springs.
+        model: FixedStepBody,
+        /// How it steps.
+        settings: StepSettings,
+    },
+}
+
 /// The springs under judgement, and what they shall follow.
 #[derive(Clone, Copy, Debug)]
 pub struct Validator {
+    /// Housner's body.
     pub body: Body<f64>,
     /// Velocity restitution e of Housner's solution.
     pub restitution: f64,
-    pub springs: Springs<Chain>,
     /// Length compared (s); each record's own unless given.
     pub duration_s: Option<f64>,
-    pub control: Control,
+    /// What is judged.
+    pub model: JudgedModel,
 }
 
 impl Validator {

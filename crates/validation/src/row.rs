@@ -4,9 +4,14 @@ use std::{borrow::Cow, f64::consts::FRAC_PI_2};
 
 use serde::Serialize;
 
-use super::{HousnerForces, Validator, stream::ComparisonObserver};
-use dynamics::fem;
-use rocking::{conditioning::Conditioning, housner, overturning::samples_until, regime};
+use super::{HousnerForces, JudgedModel, Validator, stream::ComparisonObserver};
+use dynamics::{
+    fem,
+    spring::{Chain, Springs},
+};
+use rocking::{
+    conditioning::Conditioning, housner, overturning::samples_until, regime, structure::Body,
+};
 use strong_motion::{Record, Source};
 
 /// Whether the two models could be compared.
@@ -78,8 +83,8 @@ pub struct Row {
     /// Impacts of Housner's body.
     pub impacts: usize,
     /// Largest |residual| of the finite element model's energy account over the largest energy of
-    /// the history.
-    pub energy_residual: f64,
+    /// the history; none of steps of one size, which have no such account.
+    pub energy_residual: Option<f64>,
     /// Where the record comes from.
     pub suite: Suite,
     /// By the derivative and by finite changes; false if the record never lifts Housner's body.
@@ -103,7 +108,8 @@ pub struct Row {
     pub displacement_error: Option<f64>,
     /// Of the largest uplift of a foot.
     pub uplift_error: Option<f64>,
-    /// Of the largest base shear between landings.
+    /// Of the largest base shear between landings; this and the next are none of steps of one size,
+    /// too.
     pub base_shear_error: Option<f64>,
     /// Of the largest vertical force of the ground between landings.
     pub axial_error: Option<f64>,
@@ -115,11 +121,11 @@ impl Row {
         matches!(self.outcome, RecordOutcome::HousnerFailed | RecordOutcome::FemFailed)
     }
 
-    /// The largest of the peaks' errors.
+    /// The largest of the peaks' errors, of those that are compared.
     pub(crate) fn peak_error(&self) -> Option<f64> {
-        let all =
-            [self.displacement_error, self.uplift_error, self.base_shear_error, self.axial_error];
-        all.into_iter().try_fold(0.0, |largest, error| Some(f64::max(largest, error?)))
+        let displacement = self.displacement_error?;
+        let others = [self.uplift_error, self.base_shear_error, self.axial_error];
+        Some(others.into_iter().flatten().fold(displacement, f64::max))
     }
 
     /// Whether Housner's body rocked without toppling and its history is well conditioned: NRMSE
@@ -147,17 +153,41 @@ impl Row {
 }
 
 /// Housner's answer to a record.
-struct HousnerAnswer<'a> {
-    record: Cow<'a, Record>,
+pub(crate) struct HousnerAnswer<'a> {
+    pub(crate) record: Cow<'a, Record>,
     options: housner::RockingOptions<f64>,
     rocking: housner::Rocking<f64>,
     forces: HousnerForces,
     conditioning: Option<Conditioning>,
 }
 
+/// How a history on springs ended.
+pub(crate) struct HistoryEnd {
+    /// Whether it overturned; none if it failed.
+    pub(crate) overturned: Option<bool>,
+    /// As [`Row::energy_residual`].
+    pub(crate) energy_residual: Option<f64>,
+}
+
+impl HistoryEnd {
+    fn of(body: &Body<f64>, stream: &ComparisonObserver, finish: &fem::Finish) -> Self {
+        let overturned = match finish.outcome {
+            fem::HistoryOutcome::Overturned { .. } | fem::HistoryOutcome::Stopped { .. } => {
+                Some(true)
+            }
+            fem::HistoryOutcome::Completed => {
+                Some(housner::topples(body, stream.last.0, stream.last.1))
+            }
+            fem::HistoryOutcome::WorkBound { .. } | fem::HistoryOutcome::Unstable { .. } => None,
+        };
+        let residual = (stream.residual / finish.energy_scale).min(f64::MAX);
+        Self { overturned, energy_residual: Some(residual) }
+    }
+}
+
 impl HousnerAnswer<'_> {
     /// His rotations until the body lies.
-    fn standing(&self) -> &[f64] {
+    pub(crate) fn standing(&self) -> &[f64] {
         let Self { record, rocking, .. } = self;
         let samples = samples_until(rocking.overturned(), record.dt);
         &rocking.theta[..samples.min(rocking.theta.len())]
@@ -168,8 +198,17 @@ impl Validator {
     /// Run both models over records, the finite element histories side by side.
     pub(crate) fn judge(&self, records: &[Record]) -> Vec<Row> {
         let answers = parallel::map(records, |record| self.answer(record));
+        let (springs, control) = match &self.model {
+            JudgedModel::Events { springs, control } => (springs, *control),
+            JudgedModel::Even { model, settings } => {
+                return parallel::map(&answers, |answer| {
+                    let (stream, end) = self.follow_even(answer, model, *settings);
+                    self.row(answer, &stream, &end)
+                });
+            }
+        };
         let cases: Vec<fem::Analysis> =
-            answers.iter().map(|answer| self.case(&answer.record)).collect();
+            answers.iter().map(|answer| self.case(&answer.record, springs, control)).collect();
         let watch = |i: usize| {
             ComparisonObserver::new(&self.body, answers[i].standing(), cases[i].accel)
                 .with_forces(&answers[i].forces)
@@ -177,7 +216,7 @@ impl Validator {
         let followed = fem::histories(&cases, watch);
         parallel::map_range(0..answers.len(), |i| {
             let (stream, finish) = &followed[i];
-            self.row(&answers[i], stream, finish)
+            self.row(&answers[i], stream, &HistoryEnd::of(&self.body, stream, finish))
         })
     }
 
@@ -195,36 +234,28 @@ impl Validator {
         HousnerAnswer { record, options, rocking, forces, conditioning }
     }
 
-    fn case<'a>(&self, record: &'a Record) -> fem::Analysis<'a> {
+    fn case<'a>(
+        &self,
+        record: &'a Record,
+        springs: &Springs<Chain>,
+        control: fem::Control,
+    ) -> fem::Analysis<'a> {
         fem::Analysis {
             body: self.body,
-            springs: self.springs,
+            springs: *springs,
             start: fem::Start::Settled,
             dt: record.dt,
             accel: &record.accel,
             vertical: &[],
             scale: 1.0,
-            control: self.control,
+            control,
         }
     }
 
-    fn row(
-        &self,
-        answer: &HousnerAnswer,
-        stream: &ComparisonObserver,
-        finish: &fem::Finish,
-    ) -> Row {
+    fn row(&self, answer: &HousnerAnswer, stream: &ComparisonObserver, end: &HistoryEnd) -> Row {
         let HousnerAnswer { record, options, rocking, conditioning, .. } = answer;
         let (body, dt, accel) = (&self.body, record.dt, &record.accel[..]);
-        let overturned_fem = match finish.outcome {
-            fem::HistoryOutcome::Overturned { .. } | fem::HistoryOutcome::Stopped { .. } => {
-                Some(true)
-            }
-            fem::HistoryOutcome::Completed => {
-                Some(housner::topples(body, stream.last.0, stream.last.1))
-            }
-            fem::HistoryOutcome::WorkBound { .. } | fem::HistoryOutcome::Unstable { .. } => None,
-        };
+        let overturned_fem = end.overturned;
         let errors = if overturned_fem == Some(true) { stream.upright } else { stream.errors };
         let (horizontal, vertical) = (errors.horizontal.value(), errors.vertical.value());
         let finite = !horizontal.is_nan() && !vertical.is_nan() && stream.peak.is_finite();
@@ -253,6 +284,10 @@ impl Validator {
         let changed = housner::solve(body, dt, accel, &changed);
         let error = |x: f64| (outcome == RecordOutcome::Rocked && x.is_finite()).then_some(x);
         let peaks = errors.peaks.errors();
+        let forces = |x: f64| {
+            let known = error(horizontal).and(error(x));
+            known.filter(|_| matches!(self.model, JudgedModel::Events { .. }))
+        };
         Row {
             name: record.name.clone(),
             outcome,
@@ -266,7 +301,7 @@ impl Validator {
             overturned_housner,
             overturned_fem,
             impacts: rocking.impacts.len(),
-            energy_residual: (stream.residual / finish.energy_scale).min(f64::MAX),
+            energy_residual: end.energy_residual,
             suite: (&record.source).into(),
             well_conditioned: conditioning.is_some_and(|c| c.well_conditioned()),
             moved_by_0_1_percent: moved(0),
@@ -277,8 +312,8 @@ impl Validator {
             pivot_pulls_s: regime::pivot_pulls(body, dt, accel, rocking),
             displacement_error: error(horizontal).and(error(peaks.displacement)),
             uplift_error: error(horizontal).and(error(peaks.uplift)),
-            base_shear_error: error(horizontal).and(error(peaks.base_shear)),
-            axial_error: error(horizontal).and(error(peaks.axial)),
+            base_shear_error: forces(peaks.base_shear),
+            axial_error: forces(peaks.axial),
         }
     }
 }

@@ -119,7 +119,7 @@ pub struct Summary {
     /// NRMSE of v over the same records.
     pub nrmse_vertical_well_conditioned: Quantiles,
     /// Relative error of the largest displacement, uplift, base shear and axial force, the worst of
-    /// them, over the same records.
+    /// those that are compared, over the same records.
     pub peaks_well_conditioned: Quantiles,
     /// NRMSE of u over all records that are not hopeless.
     pub nrmse_geometric_mean: GeometricMean,
@@ -135,8 +135,8 @@ pub struct Summary {
     pub pivot_pulls: usize,
     /// Names of the records in which a model failed.
     pub failed: Vec<String>,
-    /// Largest energy residual of all finite element histories.
-    pub energy_residual_max: f64,
+    /// Largest energy residual of all finite element histories; none where they have none.
+    pub energy_residual_max: Option<f64>,
 }
 
 /// All records, what they say together, and what each suite says.
@@ -195,7 +195,10 @@ impl Summary {
                 .filter(|row| row.pivot_pulls_s.is_some() && !row.overturned_housner)
                 .count(),
             failed: records.iter().filter(|row| row.failed()).map(|row| row.name.clone()).collect(),
-            energy_residual_max: records.iter().map(|row| row.energy_residual).fold(0.0, f64::max),
+            energy_residual_max: records
+                .iter()
+                .filter_map(|row| row.energy_residual)
+                .reduce(f64::max),
         }
     }
 }

@@ -137,22 +137,34 @@ impl<'a> ComparisonObserver<'a> {
     }
 }
 
-impl Observer for ComparisonObserver<'_> {
-    fn sample(&mut self, index: usize, view: &View) -> ControlFlow<()> {
-        if index == 0 {
-            self.initial_z = view.z();
-        }
-        let theta = view.theta();
-        let lean = if view.presses(0) && view.presses(1) { 0.0 } else { theta };
-        let velocity = [view.speed(), view.climb()];
+/// A history on springs at a sample.
+pub(crate) struct HistorySample {
+    /// Displacement of the centre of mass from where it stands, to the right and up (m).
+    pub place: [f64; 2],
+    /// Its velocity (m/s).
+    pub velocity: [f64; 2],
+    /// (rad)
+    pub theta: f64,
+    /// (rad/s)
+    pub rate: f64,
+    /// Whether both feet press.
+    pub stands: bool,
+}
+
+impl ComparisonObserver<'_> {
+    /// Take note of a sample; whether the history shall go on.
+    #[inline]
+    pub(crate) fn take(&mut self, index: usize, now: &HistorySample) -> ControlFlow<()> {
+        let HistorySample { place, velocity, theta, rate, stands } = *now;
+        let lean = if stands { 0.0 } else { theta };
         if let Some(&housner) = self.housner.get(index) {
             let u = self.body.u(housner);
-            self.errors.peaks.motion([view.x(), u], [lean, housner]);
+            self.errors.peaks.motion([place[0], u], [lean, housner]);
             if let Some(forces) = self.forces {
                 self.errors.peaks.interval(forces, index, self.touched, [self.velocity, velocity]);
             }
-            self.errors.horizontal.push(view.x(), u);
-            self.errors.vertical.push(view.z() - self.initial_z, self.body.v(housner));
+            self.errors.horizontal.push(place[0], u);
+            self.errors.vertical.push(place[1], self.body.v(housner));
             self.errors.samples = index + 1;
         }
         self.velocity = velocity;
@@ -160,10 +172,28 @@ impl Observer for ComparisonObserver<'_> {
             self.upright = self.errors;
         }
         self.peak = self.peak.max(lean.abs());
-        self.last = (theta, view.theta_rate());
+        self.last = (theta, rate);
         self.samples = index + 1;
-        self.residual = self.residual.max(view.energy.residual().abs());
         if self.falls_from(index) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+impl Observer for ComparisonObserver<'_> {
+    fn sample(&mut self, index: usize, view: &View) -> ControlFlow<()> {
+        if index == 0 {
+            self.initial_z = view.z();
+        }
+        self.residual = self.residual.max(view.energy.residual().abs());
+        self.take(
+            index,
+            &HistorySample {
+                place: [view.x(), view.z() - self.initial_z],
+                velocity: [view.speed(), view.climb()],
+                theta: view.theta(),
+                rate: view.theta_rate(),
+                stands: view.presses(0) && view.presses(1),
+            },
+        )
     }
 
     fn event(&mut self, _: usize, change: Change, view: &View) {

@@ -83,7 +83,9 @@ fn summary(v: &Validation) -> (Vec<String>, Vec<Vec<String>>) {
         }),
         ("never lifted".into(), &|s| s.never_lifted.to_string()),
         ("failed".into(), &|s| s.failed.len().to_string()),
-        ("largest energy residual".into(), &|s| format!("{:.1e}", s.energy_residual_max)),
+        ("largest energy residual".into(), &|s| {
+            s.energy_residual_max.map_or("-".into(), |x| format!("{x:.1e}"))
+        }),
     ];
     let head =
         [""].into_iter().chain(sets.iter().map(|(name, _)| *name)).map(str::to_string).collect();

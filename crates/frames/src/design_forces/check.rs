@@ -4,7 +4,10 @@ use super::{Cutoff, ForceKind, ForcePeak, cutoff::SOLE_HZ, parts};
 use crate::{
     assembled::Assembled,
     design_forces::ForcesTogether,
-    fem::{ElasticAnalysis, ElasticHistory, ElasticStart, FineColumn, FineSeries, low_pass},
+    fem::{
+        ElasticAnalysis, ElasticHistory, ElasticStart, FineColumn, FineSeries, RunningPeaks,
+        StepForces, low_pass,
+    },
     frame::{EquilibriumError, Frame},
     structure::ElasticStructure,
 };
@@ -104,14 +107,27 @@ impl ForcePeaks {
         let series = Series { part_s: fine.part_s, over_s: over };
         let mut out: Vec<PeakOfForce> = Vec::new();
         for column in &fine.columns {
-            series
-                .of_column(column, of_columns)
-                .into_iter()
-                .for_each(|peak| keep_larger(&mut out, peak));
+            let peaks = match of_columns {
+                Some(cutoff_hz) => series.of_column(column, cutoff_hz),
+                None => of_massless(&column.at_steps, over),
+            };
+            peaks.into_iter().for_each(|peak| keep_larger(&mut out, peak));
         }
-        let of_soles = Some(of_columns.unwrap_or(SOLE_HZ));
+        let of_soles = of_columns.unwrap_or(SOLE_HZ);
         for (sole, kind) in fine.sole.iter().zip([ForceKind::SoleShear, ForceKind::SoleVertical]) {
             out.extend(series.peak(kind, sole, &series.smooth(sole, of_soles), of_soles));
+        }
+        for (k, kind) in [ForceKind::Tendon, ForceKind::Damper].into_iter().enumerate() {
+            let most = |until: f64| fine.members.largest(k, until);
+            let peak = most(over).zip(most(f64::INFINITY)).map(|(found, all)| PeakOfForce {
+                kind,
+                filtered: ForcePeak { value: found.forces[k], time_s: found.time },
+                raw: all.forces[k],
+                cutoff_hz: None,
+                together: None,
+                above_base_m: None,
+            });
+            out.extend(peak.filter(|peak| peak.raw != 0.0));
         }
         Self(out)
     }
@@ -129,10 +145,9 @@ struct Series {
 }
 
 impl Series {
-    /// A series below a frequency (Hz), if there is one.
-    fn smooth(&self, series: &FineSeries, cutoff_hz: Option<f64>) -> Vec<f64> {
-        cutoff_hz
-            .map_or_else(|| series.means.clone(), |hz| low_pass(&series.means, self.part_s, hz))
+    /// A series below a frequency (Hz).
+    fn smooth(&self, series: &FineSeries, cutoff_hz: f64) -> Vec<f64> {
+        low_pass(&series.means, self.part_s, cutoff_hz)
     }
 
     /// The largest of the samples that count, in the middle of its part.
@@ -148,25 +163,20 @@ impl Series {
         kind: ForceKind,
         series: &FineSeries,
         smooth: &[f64],
-        cutoff_hz: Option<f64>,
+        cutoff_hz: f64,
     ) -> Option<PeakOfForce> {
-        let mut filtered = self.largest(smooth)?;
-        // as it is: the largest at any step, not of means
-        if cutoff_hz.is_none() && self.over_s >= self.part_s * smooth.len() as f64 {
-            filtered.value = series.largest;
-        }
         Some(PeakOfForce {
             kind,
-            filtered,
+            filtered: self.largest(smooth)?,
             raw: series.largest,
-            cutoff_hz,
+            cutoff_hz: Some(cutoff_hz),
             together: None,
             above_base_m: None,
         })
     }
 
-    /// Of all forces of a column, each with what its base bears at that time.
-    fn of_column(&self, column: &FineColumn, cutoff_hz: Option<f64>) -> Vec<PeakOfForce> {
+    /// Of all forces of a column with mass, each with what its base bears at that time.
+    fn of_column(&self, column: &FineColumn, cutoff_hz: f64) -> Vec<PeakOfForce> {
         let [shear, axial, moment] = &column.base;
         let base = [shear, axial, moment].map(|series| self.smooth(series, cutoff_hz));
         let of = |kind, k: usize| self.peak(kind, &column.base[k], &base[k], cutoff_hz);
@@ -190,8 +200,8 @@ impl Series {
             self.largest(&pulled).filter(|peak| peak.value > 0.0).map(|filtered| PeakOfForce {
                 kind: ForceKind::AxialTension,
                 filtered,
-                raw: filtered.value,
-                cutoff_hz,
+                raw: column.at_steps.most(1, f64::INFINITY).map_or(0.0, |step| step.forces[1]),
+                cutoff_hz: Some(cutoff_hz),
                 together: None,
                 above_base_m: None,
             });
@@ -217,6 +227,42 @@ impl Series {
         };
         peaks.map(together).collect()
     }
+}
+
+/// Forces of a column without mass as they are at the ends of steps, up to a time (s), each with
+/// what its base bears there.
+fn of_massless(column: &RunningPeaks<4>, over_s: f64) -> Vec<PeakOfForce> {
+    let peak =
+        |kind: ForceKind, k: usize, found: Option<StepForces<4>>, raw: Option<StepForces<4>>| {
+            let StepForces { time, forces } = found?;
+            let [column_shear_n, axial_n, column_base_moment_nm, _] = forces;
+            Some(PeakOfForce {
+                kind,
+                filtered: ForcePeak { value: forces[k], time_s: time },
+                raw: raw.map_or(forces[k], |step| step.forces[k]),
+                cutoff_hz: None,
+                together: Some(ForcesTogether {
+                    column_shear_n,
+                    axial_n,
+                    column_base_moment_nm,
+                    apex_moment_nm: None,
+                }),
+                above_base_m: (kind == ForceKind::ColumnShear).then_some(0.0),
+            })
+        };
+    let kinds = [
+        ForceKind::ColumnShear,
+        ForceKind::Axial,
+        ForceKind::ColumnBaseMoment,
+        ForceKind::ColumnTopMoment,
+    ];
+    let all = kinds.into_iter().enumerate().filter_map(|(k, kind)| {
+        peak(kind, k, column.largest(k, over_s), column.largest(k, f64::INFINITY))
+    });
+    // of a column that is always pressed there is none
+    let tension =
+        peak(ForceKind::AxialTension, 1, column.most(1, over_s), column.most(1, f64::INFINITY));
+    all.chain(tension).collect()
 }
 
 /// Of several columns, and of the heights of one, that which bears the most counts, and the largest

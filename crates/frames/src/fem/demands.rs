@@ -3,6 +3,8 @@
 //! ```text
 //!   base shear     sum of the horizontal forces that footings give the beams that end on them
 //!   beam i         axial force N (tension positive), shear V, moments at its first and its second end
+//!   tendon         pull
+//!   damper         force on the structure, upwards
 //! ```
 
 use crate::{beam::BeamForces, frame::Frame};
@@ -15,16 +17,28 @@ pub struct FrameDemand {
     pub base_shear: f64,
     /// Of every beam.
     pub bearings: Vec<BeamForces>,
+    /// Pull of every tendon (N).
+    pub tendons: Vec<f64>,
+    /// Of every damper (N).
+    pub dampers: Vec<f64>,
 }
 
 impl FrameDemand {
     pub(super) fn new(frame: &Frame) -> Self {
-        Self { base_shear: 0.0, bearings: vec![BeamForces::default(); frame.beams()] }
+        let (tendons, dampers) = frame.members();
+        Self {
+            base_shear: 0.0,
+            bearings: vec![BeamForces::default(); frame.beams()],
+            tendons: vec![0.0; tendons],
+            dampers: vec![0.0; dampers],
+        }
     }
 
     /// At one instant.
     pub(super) fn take(&mut self, frame: &Frame, q: &[f64], v: &[f64]) {
         self.base_shear = 0.0;
+        self.tendons = frame.tensions(q);
+        self.dampers = frame.damper_forces(q, v);
         for (i, bearing) in self.bearings.iter_mut().enumerate() {
             *bearing = frame.bearing(i, q, v);
             for (end, _) in frame.bases_of(i).into_iter().enumerate().filter(|(_, base)| *base) {
@@ -40,7 +54,8 @@ impl FrameDemand {
     pub fn values(&self) -> impl Iterator<Item = f64> + '_ {
         let bearings =
             self.bearings.iter().flat_map(|b| [b.axial, b.shear, b.moments[0], b.moments[1]]);
-        std::iter::once(self.base_shear).chain(bearings)
+        let members = self.tendons.iter().chain(&self.dampers).copied();
+        std::iter::once(self.base_shear).chain(bearings).chain(members)
     }
 
     fn values_mut(&mut self) -> impl Iterator<Item = &mut f64> {
@@ -48,7 +63,8 @@ impl FrameDemand {
             let [first, second] = &mut b.moments;
             [&mut b.axial, &mut b.shear, first, second]
         });
-        std::iter::once(&mut self.base_shear).chain(bearings)
+        let members = self.tendons.iter_mut().chain(&mut self.dampers);
+        std::iter::once(&mut self.base_shear).chain(bearings).chain(members)
     }
 
     /// Keep the larger magnitudes of both.

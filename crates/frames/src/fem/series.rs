@@ -8,7 +8,12 @@
 //!
 //! A part's mean times its length is the impulse of the force: no landing is between two samples.
 
-use super::{filter::low_pass, run::ElasticView, step::ElasticStages};
+use super::{
+    filter::low_pass,
+    run::ElasticView,
+    running_peaks::{RunningPeaks, StepForces},
+    step::ElasticStages,
+};
 use crate::frame::{Frame, FrameColumn};
 use dynamics::fem::radau::C;
 use rocking::scalar::GRAVITY;
@@ -44,6 +49,8 @@ pub struct FineColumn {
     pub heights: Vec<f64>,
     /// Moment at its top (N m).
     pub top_moment: FineSeries,
+    /// At the ends of steps: shear, axial force and moment of its base, moment of its top.
+    pub at_steps: RunningPeaks<4>,
 }
 
 impl FineColumn {
@@ -65,6 +72,9 @@ pub struct FineForces {
     pub columns: Vec<FineColumn>,
     /// Of the ground on all corners together, horizontally and vertically (N).
     pub sole: [FineSeries; 2],
+    /// At the ends of steps: of the tendon that pulls most, of the damper with the largest force
+    /// on the structure, upwards (N).
+    pub members: RunningPeaks<2>,
 }
 
 impl FineForces {
@@ -122,11 +132,16 @@ impl FineRecorder {
                 above: heights.iter().map(|_| series()).collect(),
                 heights,
                 top_moment: series(),
+                at_steps: RunningPeaks::default(),
             }
         };
         let fine = columns.iter().map(of).collect();
-        let forces =
-            FineForces { part_s: dt / parts as f64, columns: fine, sole: [series(), series()] };
+        let forces = FineForces {
+            part_s: dt / parts as f64,
+            columns: fine,
+            sole: [series(), series()],
+            members: RunningPeaks::default(),
+        };
         let count = forces.series().count();
         Self { columns, forces, start: vec![0.0; count], started: false }
     }
@@ -171,6 +186,22 @@ impl FineRecorder {
                 series.largest = *end;
             }
         }
+        let mut place = 0;
+        for column in &mut self.forces.columns {
+            let all = &end[place..place + column.series().count()];
+            if let [shear, axial, moment, .., top] = *all {
+                let forces = [shear, axial, moment, top];
+                column.at_steps.take(StepForces { time: view.time, forces }, part);
+            }
+            place += all.len();
+        }
+        let model = view.model;
+        let (q, v) = (&view.q[..model.n], &view.v[..model.n]);
+        let larger = |a: f64, b: f64| if b.abs() > a.abs() { b } else { a };
+        let [tendon, damper] = [model.frame.tensions(q), model.frame.damper_forces(q, v)]
+            .map(|all| all.into_iter().fold(0.0, larger));
+        let forces = StepForces { time: view.time, forces: [tendon, damper] };
+        self.forces.members.take(forces, part);
         let curves: Vec<[f64; 4]> = (0..end.len())
             .map(|k| integral([self.start[k], within[0][k], within[1][k], within[2][k]]))
             .collect();

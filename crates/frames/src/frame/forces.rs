@@ -71,12 +71,24 @@ fn add_block(place: &PlaceOnNode, slope: [f64; 2], block: [[f64; 2]; 2], out: &m
 }
 
 impl Frame {
+    /// How many tendons and how many dampers.
+    pub fn members(&self) -> (usize, usize) {
+        (self.tendons.len(), self.dampers.len())
+    }
+
     /// Tension of every tendon (N).
     pub fn tensions(&self, q: &[f64]) -> Vec<f64> {
         let tension = |(place, tendon): &(PlaceOnNode, FrameTendon)| {
             tendon.pull(place.reach(q).place).map_or(0.0, |p| p.tension)
         };
         self.tendons.iter().map(tension).collect()
+    }
+
+    /// Force of every damper on the structure, upwards (N).
+    pub fn damper_forces(&self, q: &[f64], v: &[f64]) -> Vec<f64> {
+        let force =
+            |(place, c): &(PlaceOnNode, [f64; 2])| -c[1] * place.velocity(&place.reach(q), v)[1];
+        self.dampers.iter().map(force).collect()
     }
 
     /// By how much every tendon is longer than in the unstressed structure (m).

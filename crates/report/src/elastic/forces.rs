@@ -63,5 +63,7 @@ pub fn design_forces(structure: &ElasticStructure, of: &StructureForces) -> Desi
         apex_moment_nm,
         sole_shear_n: force(ForceKind::SoleShear),
         sole_vertical_n: force(ForceKind::SoleVertical),
+        tendon_n: force(ForceKind::Tendon),
+        damper_n: force(ForceKind::Damper),
     }
 }

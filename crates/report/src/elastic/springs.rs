@@ -187,10 +187,13 @@ fn taken(parameters: &ElasticParameters) -> Taken {
     if let Some(lifts) = lifts {
         fact("lifts at a steady ground acceleration of", format!("{} g", significant(lifts, 4)));
     }
-    fact(
-        "lifts as a rigid body at g tan alpha",
-        format!("{} g", significant(body.alpha().tan(), 4)),
-    );
+    // a tendon holds it down, too
+    if parameters.tendon.is_none() {
+        fact(
+            "lifts as a rigid body at g tan alpha",
+            format!("{} g", significant(body.alpha().tan(), 4)),
+        );
+    }
     let mass = quantity(structure.mass(), "kg");
     let text = format!(
         "{}, {mass}, {} Hz if fixed",

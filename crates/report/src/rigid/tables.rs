@@ -172,7 +172,7 @@ pub(crate) fn stiffness(front: &[TradeoffPoint]) -> Table {
         "NRMSE of u, design from the geometry",
         "paper's procedure",
         "largest foot force [weights]",
-        "analyze steps of the deck",
+        "analyze steps of the deck, at least",
         "",
     ])
     .with(front.iter().map(row))

@@ -129,6 +129,8 @@ fn order((name, force): (ForceName, DesignForce)) -> f64 {
         ForceName::Axial => 2.0,
         ForceName::AxialTension => 3.0,
         ForceName::SoleShear | ForceName::SoleVertical => 4.0,
+        ForceName::Tendon => 5.0,
+        ForceName::Damper => 6.0,
     }
 }
 

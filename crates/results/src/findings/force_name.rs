@@ -14,6 +14,8 @@ pub enum ForceName {
     ApexMoment,
     SoleShear,
     SoleVertical,
+    Tendon,
+    Damper,
 }
 
 impl ForceName {
@@ -28,6 +30,8 @@ impl ForceName {
             Self::ApexMoment => "moment at the apex",
             Self::SoleShear => "shear at the sole, footing included",
             Self::SoleVertical => "vertical force at the sole, footing included",
+            Self::Tendon => "tendon force",
+            Self::Damper => "damper force",
         }
     }
 

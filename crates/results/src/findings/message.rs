@@ -262,6 +262,14 @@ impl Finding {
                     be predicted"
                     .into()
             }
+            Self::RestitutionMissed { asked, lowest, highest, .. }
+                if !(lowest.is_finite() && highest.is_finite()) =>
+            {
+                format!(
+                    "no test landing shows the restitution {} that is due",
+                    significant(*asked, 4)
+                )
+            }
             Self::RestitutionMissed { asked, lowest, highest, .. } => format!(
                 "landings have a restitution of {} to {} where {} is due",
                 significant(*lowest, 4),

@@ -14,6 +14,11 @@ pub(super) fn csv(run: &ElasticRun, instants: Instants) -> String {
         let units = ["n", "n", "nm", "nm"];
         head.extend(names.iter().zip(units).map(|(name, unit)| format!("beam_{i}_{name}_{unit}")));
     }
+    let standing = fem.demands.first();
+    let members = standing.map_or([0; 2], |demand| [demand.tendons.len(), demand.dampers.len()]);
+    for (name, count) in ["tendon", "damper"].into_iter().zip(members) {
+        head.extend((1..=count).map(|i| format!("{name}_{i}_n")));
+    }
     for i in 1..=fem.forces.len() {
         head.extend([format!("corner_{i}_horizontal_n"), format!("corner_{i}_vertical_n")]);
     }

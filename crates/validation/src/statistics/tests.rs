@@ -24,7 +24,7 @@ fn row(
         overturned_housner: overturned.0,
         overturned_fem: overturned.1,
         impacts: 3,
-        energy_residual: 1e-7,
+        energy_residual: Some(1e-7),
         suite: Suite::Files,
         well_conditioned: sensitivity < 10.0,
         moved_by_0_1_percent: 1e-3 * sensitivity,

@@ -1,0 +1,75 @@
+//! What the ground gives a rigid body at one instant, and what its legs or its base bear.
+
+use frames::design_forces::ForcesTogether;
+use rocking::structure::{Body, Kind};
+
+/// Column shear, moment and axial force: of a block about its base, of an A-frame's legs at the
+/// apex.
+type ForceRow = [f64; 3];
+
+/// Forces at one instant.
+pub(super) struct GroundRow {
+    /// Whether both feet bear.
+    pub stands: bool,
+    /// On the body, horizontally (N).
+    pub sole_shear: f64,
+    /// Of the left leg and of the right one; of a block the same twice.
+    pub legs: [ForceRow; 2],
+}
+
+impl GroundRow {
+    /// For forces (H, N) of the left and the right foot of a body that leans by theta.
+    pub fn new(kind: Kind, body: &Body<f64>, theta: f64, feet: [[f64; 2]; 2]) -> Self {
+        let [[left_h, left_n], [right_h, right_n]] = feet;
+        let sole_shear = left_h + right_h;
+        if kind == Kind::Block {
+            let moment = (left_n - right_n) * body.half_width;
+            let row = [sole_shear, moment, -(left_n + right_n)];
+            return Self { stands: false, sole_shear, legs: [row; 2] };
+        }
+        let (sin, cos) = theta.sin_cos();
+        let legs = [(-1.0, feet[0]), (1.0, feet[1])].map(|(side, [h, n])| {
+            // from the mass to the foot, turned clockwise with the body
+            let (x, z) = (side * body.half_width, -body.height);
+            let (dx, dz) = (x * cos + z * sin, z * cos - x * sin);
+            let length = body.radius();
+            let moment = h * dz - n * dx;
+            [moment / length, moment, (h * dx + n * dz) / length]
+        });
+        Self { stands: false, sole_shear, legs }
+    }
+
+    /// The leg where a force of a leg is the larger one: 0 shear, 1 moment, 2 axial force.
+    fn leg(&self, force: usize) -> ForceRow {
+        let [left, right] = self.legs;
+        if left[force].abs() >= right[force].abs() { left } else { right }
+    }
+
+    /// Shear at the sole (0), column shear (1), moment (2), axial force (3).
+    pub fn largest(&self, k: usize) -> f64 {
+        k.checked_sub(1).map_or(self.sole_shear, |force| self.leg(force)[force])
+    }
+
+    /// What acts together with the same; with the shear at the sole, in the leg that bears the
+    /// larger axial force.
+    pub fn together(&self, kind: Kind, k: usize) -> ForcesTogether {
+        let [column_shear_n, moment, axial_n] = self.leg(k.checked_sub(1).unwrap_or(2));
+        let (column_base_moment_nm, apex_moment_nm) = match kind {
+            Kind::Block => (moment, None),
+            Kind::AFrame => (0.0, Some(moment)),
+        };
+        ForcesTogether { column_shear_n, axial_n, column_base_moment_nm, apex_moment_nm }
+    }
+}
+
+/// Forces of the left foot and of the right one of a standing body of this weight (N), over a ground
+/// of u_g/g and gamma.
+pub(super) fn standing_feet(
+    body: &Body<f64>,
+    weight: f64,
+    (ground, gamma): (f64, f64),
+) -> [[f64; 2]; 2] {
+    let (f, n) = (weight * ground, weight * gamma);
+    let apart = f * body.height / body.half_width;
+    [[0.5 * f, 0.5 * (n + apart)], [0.5 * f, 0.5 * (n - apart)]]
+}

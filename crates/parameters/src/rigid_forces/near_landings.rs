@@ -1,0 +1,99 @@
+//! Forces of a body on springs near its landings, without what the springs add.
+
+use super::ground_row::{GroundRow, standing_feet};
+use dynamics::fem::{Demands, History};
+use rocking::{
+    regime,
+    scalar::GRAVITY,
+    structure::{Body, Kind},
+};
+use strong_motion::Record;
+
+/// Forces near landings, at the other samples than `kept`, of a body that presses on the ground:
+/// m (a_g, g + a_v) where both feet press, those of equation (1) where one does. With members, which
+/// equation (1) has not, m (g + a_v) on the foot that presses more. A landing adds its impulse,
+/// which is not a design force.
+pub(super) fn near_landings(
+    (kind, body): (Kind, &Body<f64>),
+    record: &Record,
+    (history, demands): (&History, &Demands),
+    kept: &[usize],
+    has_members: bool,
+) -> Vec<(usize, GroundRow)> {
+    let theta = &history.motion.theta;
+    let row = |i: usize| {
+        let [left, right] = demands.feet.get(i)?.map(|[_, n]| n);
+        if left.max(right) <= 0.0 {
+            return None;
+        }
+        let at = |record: &[f64]| record.get(i).copied().unwrap_or(0.0) / GRAVITY;
+        let ground = (at(&record.accel), 1.0 + at(record.up()));
+        let side = if right > left { 1.0 } else { -1.0 };
+        let (f, n) = if has_members {
+            (0.0, ground.1)
+        } else if left.min(right) > 0.0 {
+            let feet = standing_feet(body, body.mass * GRAVITY, ground);
+            return Some((i, GroundRow::new(kind, body, theta[i], feet)));
+        } else {
+            let [before, after] = [i.saturating_sub(1), (i + 1).min(theta.len() - 1)];
+            let rate = (theta[after] - theta[before]) / ((after - before) as f64 * record.dt);
+            regime::forces(body, side, theta[i], rate, ground)
+        };
+        let force = [f, n].map(|share| share * body.mass * GRAVITY);
+        let feet = if side > 0.0 { [[0.0; 2], force] } else { [force, [0.0; 2]] };
+        (n > 0.0).then(|| (i, GroundRow::new(kind, body, theta[i], feet)))
+    };
+    let samples = theta.len().min(demands.feet.len());
+    (0..samples).filter(|i| kept.binary_search(i).is_err()).filter_map(row).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::answers::both;
+    use dynamics::spring::{Design, Springs};
+    use rocking::{members::Members, regime::ground_forces, structure::Structure};
+
+    /// Near landings a block bears what its motion says, shear and axial force at one instant: the
+    /// forces of Housner's body where a foot presses alone, those of a body that stands where both
+    /// do; nothing in the air. With members: its weight under the vertical motion.
+    #[test]
+    fn near_landings_forces_are_those_of_the_motion() {
+        let block = Structure::block(2.1, 0.45, 640.0).unwrap();
+        let body = block.body::<f64>();
+        let pulse = |i: usize| if i < 60 { 4.0 * (i as f64 / 20.0).min(1.0) } else { 0.0 };
+        let up: Vec<f64> = (0..300).map(|i| 3.0 * (0.2 * f64::from(i)).sin()).collect();
+        let record = Record::new("made up", 0.01, (0..300).map(pulse).collect()).unwrap();
+        let record = record.with_vertical(Record::new("up", 0.01, up).unwrap()).unwrap();
+        let design = Design::from_kc(0.3, 0.1, 0.75, 10240.0);
+        let springs = Springs { vertical: design, horizontal: design }.chains(640.0);
+        let both = both(&body, body.restitution(), &springs, &Members::default(), &record);
+        let of = (&both.fem, &both.demands);
+        let housner = ground_forces(&body, (&record.accel, record.up()), &both.rocking);
+        let weight = 640.0 * GRAVITY;
+        let near = near_landings((Kind::Block, &body), &record, of, &[], false);
+        let [mut rocked, mut stood] = [0; 2];
+        for (i, row) in &near {
+            let (f, n) = housner[*i];
+            let found = [row.largest(0), -row.largest(3)];
+            let due = if both.rocking.theta[*i].abs() > 1e-3 {
+                rocked += 1;
+                [f, n]
+            } else if *i < 10 {
+                stood += 1;
+                [640.0 * record.accel[*i], 640.0 * (GRAVITY + record.up()[*i])]
+            } else {
+                continue;
+            };
+            let close = |k: usize| (found[k] - due[k]).abs() < 2e-2 * weight;
+            assert!(close(0) && close(1), "{i} {found:?} {due:?}");
+        }
+        assert!(rocked > 50 && stood > 5, "{rocked} {stood}");
+        let kept: Vec<usize> = (0..both.fem.motion.len()).filter(|i| *i != 30).collect();
+        let tied = near_landings((Kind::Block, &body), &record, of, &kept, true);
+        assert_eq!(tied.iter().map(|(i, _)| *i).collect::<Vec<_>>(), [30]);
+        let least = 640.0 * (GRAVITY + record.up()[30]);
+        assert!((tied[0].1.largest(3) / -least - 1.0).abs() < 1e-12);
+        assert_eq!(tied[0].1.largest(0), 0.0);
+    }
+}

@@ -1,0 +1,88 @@
+//! What `tune validate` judges: the springs of a run, and how their histories are stepped.
+
+use serde::Serialize;
+
+use super::CommandError;
+use decks::{Stepping, stepped_model};
+use dynamics::fem;
+use parameters::Parameters;
+use results::NotToBeUsed;
+use validation::JudgedModel;
+
+/// The program whose steps are emulated.
+#[derive(Serialize)]
+pub(super) struct JudgedProgram {
+    /// As `[program]` names it; none: any program with this integrator.
+    #[serde(rename = "for", skip_serializing_if = "Option::is_none")]
+    name: Option<String>,
+    /// (s)
+    step_s: f64,
+    integrator: String,
+    /// Substeps of a step at touches; 1: none.
+    substeps_at_touches: usize,
+    /// I_cg that the program's model has.
+    rotational_inertia_kgm2: f64,
+}
+
+/// Springs to be judged.
+pub(super) struct JudgedSprings {
+    /// The run's, with the structure and the springs as judged.
+    pub parameters: Parameters,
+    pub model: JudgedModel,
+    /// None of steps that follow touches.
+    pub program: Option<JudgedProgram>,
+    /// How histories are stepped, in words, where a program is emulated.
+    pub steps: Option<String>,
+    /// Whether the run refuses these springs, and why.
+    pub not_to_be_used: Option<NotToBeUsed>,
+}
+
+impl JudgedSprings {
+    /// Those of a run for such steps.
+    ///
+    /// # Errors
+    /// A run without springs for a program.
+    pub fn new(parameters: Parameters, stepping: Stepping) -> Result<Self, CommandError> {
+        if stepping == Stepping::Events {
+            let (springs, control) = (parameters.chains(), fem::Control::default());
+            let model = JudgedModel::Events { springs, control };
+            let (program, steps, not_to_be_used) = (None, None, None);
+            return Ok(Self { parameters, model, program, steps, not_to_be_used });
+        }
+        let Some(row) = &parameters.program else {
+            return Err(CommandError::Result(
+                "validate: these parameters have no springs for steps of one size; give tune run a \
+                 program, --for sap2000, etabs or opensees-even, or judge --stepping events"
+                    .into(),
+            ));
+        };
+        let stepped = stepped_model(&parameters, stepping)?;
+        let (model, settings) = (stepped.model, stepped.settings);
+        let touches = settings.at_touches;
+        let program = JudgedProgram {
+            name: row.name.clone(),
+            step_s: row.step_s,
+            integrator: row.integrator.clone(),
+            substeps_at_touches: touches,
+            rotational_inertia_kgm2: stepped.parameters.structure.rotational_inertia_kgm2,
+        };
+        let at_touches =
+            if touches > 1 { format!(", {touches} substeps at touches") } else { String::new() };
+        let steps = format!(
+            "steps: {}, {}, {} s each{at_touches}, emulated",
+            row.program(),
+            row.integrator_words(),
+            row.step_s
+        );
+        // that verdict is of the springs for even steps
+        let not_to_be_used = row.not_to_be_used().filter(|_| stepping == Stepping::Even);
+        let (vertical, horizontal) = (stepped.parameters.vertical, stepped.parameters.horizontal);
+        Ok(Self {
+            parameters: Parameters { vertical, horizontal, ..parameters },
+            model: JudgedModel::Even { model, settings },
+            program: Some(program),
+            steps: Some(steps),
+            not_to_be_used,
+        })
+    }
+}
