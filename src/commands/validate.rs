@@ -252,14 +252,7 @@ pub fn run(o: &ValidateOptions) -> Result<(), CommandError> {
     }
     let records = source.line(left_out.len());
     let line = judged.steps.iter().fold(records, |line, steps| format!("{line}; {steps}"));
-    if !parameters.members().is_none() {
-        terminal::stderr(format_args!(
-            "dampers, tendon and friction are left out: both models are of the rigid body alone"
-        ));
-    }
-    if let Some(why) = judged.not_to_be_used {
-        terminal::stderr(format_args!("these springs are {why}"));
-    }
+    judged.tell();
     let judge = Validator { body, restitution, duration_s: o.duration, model: judged.model };
     let progress = Progress::new("records", o.quiet);
     let validation = judge.judge_all(

@@ -26,6 +26,7 @@ mod output;
 mod plain;
 mod sap2000;
 mod step_count;
+mod stepped_model;
 mod stepping;
 pub mod verify;
 
@@ -46,10 +47,8 @@ use parameters::{
 use rocking::motion::Motion;
 pub use sap2000::sap_function;
 pub use step_count::deck_steps;
-pub use stepping::{
-    SteppedDeck, SteppedModel, Stepping, even_deck, samples_to, stepped_deck, stepped_history,
-    stepped_model,
-};
+pub use stepped_model::{SteppedModel, stepped_model};
+pub use stepping::{SteppedDeck, Stepping, even_deck, samples_to, stepped_deck, stepped_history};
 use strong_motion::Record;
 
 /// The stepping routine of decks for openseespy: `class Steps`, in need of `math`, `sys` and `ops`.

@@ -14,7 +14,7 @@ use parameters::{
 };
 use results::NotToBeUsed;
 use rocking::{motion::Motion, scalar::GRAVITY, structure::Structure};
-use springs::{fixed_steps::design, landing_simulation::differs_from_housner};
+use springs::fixed_steps::design;
 use strong_motion::Record;
 
 use crate::{
@@ -81,8 +81,6 @@ pub(crate) struct EvenSteps {
     /// What they were measured to err on the motions that they are judged on, and on
     /// earthquake-like ones.
     pub errors: [Option<ProgramErrors>; 2],
-    /// Whether nothing is left to be measured on earthquake-like ones.
-    pub judged_on_earthquakes: bool,
     /// Whether the program is ETABS.
     pub etabs: bool,
 }
@@ -108,7 +106,6 @@ impl EvenSteps {
             adds_inertia: false,
             not_to_be_used: row.not_to_be_used(),
             errors: [row.expected.synthetic, row.expected.earthquakes],
-            judged_on_earthquakes: row.judged_on_earthquakes(),
             etabs: row.is_etabs(),
         })
     }
@@ -146,12 +143,7 @@ impl EvenSteps {
             Some(format!("{} (median){most} on {histories}{on}{lost}", percent((*median)?)))
         });
         let told = told.collect::<Vec<_>>().join("; ");
-        let unjudged = match self.judged_on_earthquakes {
-            true => "",
-            false => "; not judged on earthquake-like ones: tune run --for with this --step is",
-        };
-        (!told.is_empty())
-            .then(|| format!("such steps err in the largest displacement by {told}{unjudged}"))
+        (!told.is_empty()).then(|| format!("such steps err in the largest displacement by {told}"))
     }
 
     /// Where in a step forces are taken: 1 + alpha of HHT, else its end.
@@ -206,7 +198,7 @@ pub(crate) struct Stepped {
 impl Stepped {
     pub(crate) fn new(parameters: &Parameters, stepping: Stepping) -> Result<Self, ExportError> {
         let (Some(row), Some(program)) = (&parameters.program, parameters.in_program()) else {
-            return Err(no_program(parameters));
+            return Err(ExportError::no_program(parameters));
         };
         // as decks hold it
         let program = Parameters {
@@ -280,7 +272,7 @@ impl Stepped {
     }
 
     /// The model, and how the emulation steps it.
-    fn model(&self) -> (FixedStepBody, StepSettings) {
+    pub(crate) fn model(&self) -> (FixedStepBody, StepSettings) {
         let body = self.parameters.structure.body();
         let model = FixedStepBody::new(&body, &self.parameters.chains());
         (model, self.steps.settings(body.mass * GRAVITY))
@@ -300,39 +292,6 @@ impl Stepped {
         let settled = -0.5 * body.mass * GRAVITY / chains.vertical.in_series();
         Expected::of_motion(motion, [motion.len(), compared], settled, 0.0)
     }
-}
-
-/// Why parameters have no springs for such a program.
-fn no_program(parameters: &Parameters) -> ExportError {
-    let (asked, body) = (parameters.restitution(), parameters.structure.body::<f64>());
-    match differs_from_housner(&body, asked) {
-        true => ExportError::ProgramRestitution { asked, due: body.restitution() },
-        false => ExportError::NoProgram,
-    }
-}
-
-/// A rigid body on the springs for a program with steps of one size.
-#[derive(Clone, Debug)]
-pub struct SteppedModel {
-    /// Its structure and springs, as parameters.
-    pub parameters: Parameters,
-    /// What is stepped.
-    pub model: FixedStepBody,
-    /// How.
-    pub settings: StepSettings,
-}
-
-/// The model that a deck of such a program has.
-///
-/// # Errors
-/// Parameters without springs for such a program.
-pub fn stepped_model(
-    parameters: &Parameters,
-    stepping: Stepping,
-) -> Result<SteppedModel, ExportError> {
-    let stepped = Stepped::new(parameters, stepping)?;
-    let (model, settings) = stepped.model();
-    Ok(SteppedModel { parameters: stepped.parameters, model, settings })
 }
 
 /// A rigid body's history on a record as the program that its springs are for would find it.

@@ -46,7 +46,6 @@ fn even_steps() -> EvenSteps {
         adds_inertia: false,
         not_to_be_used: None,
         errors: [None; 2],
-        judged_on_earthquakes: true,
         etabs: false,
     }
 }

@@ -66,7 +66,8 @@ impl ProgramName {
     }
 
     /// Whether its decks can be set to this integrator. SAP2000's have Newmark's and
-    /// Hilber-Hughes-Taylor's, of alpha from 0 to -1/3; OpenSees' generalized alpha is not Chung and Hulbert's.
+    /// Hilber-Hughes-Taylor's, of alpha from 0 to -1/3; OpenSees' generalized alpha is not Chung
+    /// and Hulbert's.
     pub fn has(self, integrator: Integrator) -> bool {
         match self {
             Self::Sap2000 | Self::Etabs => match integrator {

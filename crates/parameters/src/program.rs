@@ -94,7 +94,8 @@ pub struct ProgramRow<U> {
     /// Which: sap2000, etabs, opensees-even; none: any with this integrator.
     #[serde(rename = "for", default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// Whether a user asked for it: then its springs are judged on earthquake-like motions, too.
+    /// Whether a user asked for it: then its springs are judged on motions that did not choose
+    /// them.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub asked: bool,
     /// Its step (s).
@@ -311,12 +312,6 @@ impl<U> ProgramRow<U> {
         let on_record = top.map(|top| ProgramFault::OnRecord { top });
         let on_motions = ProgramFault::Peaks { median, motions, earthquakes };
         on_record.or((median > USELESS).then_some(on_motions))
-    }
-
-    /// Whether they are judged on earthquake-like motions, or are of an elastic structure, whose
-    /// are judged on all that they have.
-    pub fn judged_on_earthquakes(&self) -> bool {
-        self.asked || self.expected.earthquakes.is_some() || self.expected.stance.is_none()
     }
 
     /// What springs that are of use err on earthquake-like motions, if that is much.

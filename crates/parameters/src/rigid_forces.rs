@@ -9,8 +9,8 @@
 //! ```
 //!
 //! An impact's impulse is not among them. On springs alone, near a touch-down, the body bears what
-//! equation (1) says of its motion, or what it bears standing. A force holds if, later than 0.1/p after every
-//! touch-down, its largest value on the springs is within 5 % of Housner's.
+//! equation (1) says of its motion, or what it bears standing. A force holds if, later than 0.1/p
+//! after every touch-down, its largest value on the springs is within 5 % of Housner's.
 
 mod ground_row;
 mod members;
@@ -60,12 +60,8 @@ pub fn design_forces(
                 let mut peaks = on_springs(kind, body, dt, (history, demands), &kept);
                 let (of, members) = ((history, demands), both.with.is_some());
                 let near = near_landings((kind, body), record, of, &kept, members);
-                for (i, row) in near.into_iter().filter(|(i, _)| *i < samples) {
-                    for (k, peak) in peaks.iter_mut().enumerate() {
-                        let value = row.largest(k);
-                        *peak = peak.larger(TimedPeak { value, time: i as f64 * dt });
-                    }
-                }
+                let near = near.iter().filter(|(i, _)| *i < samples);
+                near.for_each(|(i, row)| row.raise(*i as f64 * dt, &mut peaks));
                 peaks
             };
             let own = match &both.with {

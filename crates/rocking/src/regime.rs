@@ -158,8 +158,8 @@ pub fn stands(body: &Body<f64>, (ground, gamma): (f64, f64)) -> bool {
     ground.abs() * body.height <= gamma * body.half_width
 }
 
-/// F and N of a body that rocks on the foot of a side (1: right) over its weight m g; the ground has
-/// u_g/g and gamma.
+/// F and N of a body that rocks on the foot of a side (1: right) over its weight m g; the ground
+/// has u_g/g and gamma.
 pub fn forces(
     body: &Body<f64>,
     side: f64,

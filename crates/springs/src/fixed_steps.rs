@@ -92,7 +92,7 @@ pub struct ProgramSprings {
     /// Measured on synthetic motions; none of a step too long to promise anything, or if the run
     /// was stopped before.
     pub synthetic: Option<ErrorsOverMotions>,
-    /// Measured on earthquake-like motions, if it was asked for.
+    /// Measured on earthquake-like motions; none where synthetic ones are not.
     pub earthquakes: Option<ErrorsOverMotions>,
     /// Whether stiffer springs were taken, for what they do on earthquake-like motions.
     pub stiffer: bool,
@@ -108,7 +108,7 @@ struct ProgramSuites {
 }
 
 impl ProgramSuites {
-    /// The synthetic motions of a run's suites; all the rest only where a user asked.
+    /// The motions of a run's suites; more of them only where a user asked.
     fn of(body: &Body<f64>, suites: &Suites, asked: bool, effort: &Effort) -> Self {
         let of = |suites: &Suites, on: JudgedOn| -> Vec<ReferenceHistory> {
             let motions: Vec<_> = suites.motions(on).collect();
@@ -118,13 +118,14 @@ impl ProgramSuites {
             answers.into_iter().flatten().collect()
         };
         let mut synthetic = of(suites, JudgedOn::Synthetic);
+        let earthquakes = of(suites, JudgedOn::Earthquakes);
         if !asked {
-            return Self { synthetic, earthquakes: Vec::new(), others: Vec::new() };
+            return Self { synthetic, earthquakes, others: Vec::new() };
         }
         let mut more = of(&suites.more(body.restitution(), effort), JudgedOn::Synthetic);
         let others = more.split_off(ALSO_CHOOSE.min(more.len()));
         synthetic.append(&mut more);
-        Self { synthetic, earthquakes: of(suites, JudgedOn::Earthquakes), others }
+        Self { synthetic, earthquakes, others }
     }
 }
 
@@ -145,9 +146,8 @@ impl ProgramSprings {
         Self::measured(body, program, suites, case.program.is_some(), effort).ok()
     }
 
-    /// Springs for a body, measured on the synthetic motions of its suites; if a user asked for
-    /// this program, on more of them that did not choose the springs, and on the earthquake-like
-    /// ones.
+    /// Springs for a body, measured on the motions of its suites; if a user asked for this program,
+    /// on more synthetic ones that did not choose the springs.
     ///
     /// # Errors
     /// A step that is none; an integrator that is unstable.
@@ -185,14 +185,15 @@ impl ProgramSprings {
             }
         }
         let mut found = best.unwrap_or(first);
-        if asked && !effort.stopped() {
-            if found.earthquakes.is_none() {
-                found.earthquakes = found.errors(&motions.earthquakes);
-            }
-            // few of them would tell less than those that chose
-            if motions.others.len() >= ALSO_CHOOSE {
-                found.synthetic = found.errors(&motions.others);
-            }
+        if effort.stopped() {
+            return Ok(found);
+        }
+        if found.earthquakes.is_none() {
+            found.earthquakes = found.errors(&motions.earthquakes);
+        }
+        // few of them would tell less than those that chose
+        if motions.others.len() >= ALSO_CHOOSE {
+            found.synthetic = found.errors(&motions.others);
         }
         Ok(found)
     }
@@ -317,10 +318,8 @@ mod tests {
         let program = FixedStepProgram { step: 1e-3, ..program };
         let found =
             ProgramSprings::measured(&body, program, &suites, false, &Effort::unbounded()).unwrap();
-        assert!(
-            found.synthetic.is_some_and(|errors| errors.count() > 12)
-                && found.earthquakes.is_none()
-        );
+        assert!(found.synthetic.is_some_and(|errors| errors.count() > 12));
+        assert!(found.earthquakes.is_some_and(|errors| errors.count() == 16));
     }
 
     /// Where a user asks, what springs err is told on motions none of which chose them.

@@ -33,8 +33,8 @@
 //!   a disagreement on overturning, an infinite NRMSE in the quantiles, and in D a peak at the
 //!   other end of the scale than Housner's.
 //!
-//! - **Steps of one size** (`even`) are those of a program that is emulated. Their histories have no
-//!   energy account and no velocities: forces are not compared.
+//! - **Steps of one size** (`even`) are those of a program that is emulated. Their histories have
+//!   no energy account and no velocities: forces are not compared.
 //!
 //! - **Vertical ground motion is left out** by both models, even where a record has it: the
 //!   derivative that tells which histories can be compared is known without it alone.

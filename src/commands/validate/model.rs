@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::CommandError;
+use super::{CommandError, terminal};
 use decks::{Stepping, stepped_model};
 use dynamics::fem;
 use parameters::Parameters;
@@ -38,6 +38,18 @@ pub(super) struct JudgedSprings {
 }
 
 impl JudgedSprings {
+    /// Say what of the run is left out, and whether it refuses these springs.
+    pub fn tell(&self) {
+        if !self.parameters.members().is_none() {
+            terminal::stderr(format_args!(
+                "dampers, tendon and friction are left out: both models are of the rigid body alone"
+            ));
+        }
+        if let Some(why) = self.not_to_be_used {
+            terminal::stderr(format_args!("these springs are {why}"));
+        }
+    }
+
     /// Those of a run for such steps.
     ///
     /// # Errors

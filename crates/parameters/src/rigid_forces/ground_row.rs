@@ -1,7 +1,10 @@
 //! What the ground gives a rigid body at one instant, and what its legs or its base bear.
 
 use frames::design_forces::ForcesTogether;
-use rocking::structure::{Body, Kind};
+use rocking::{
+    motion::TimedPeak,
+    structure::{Body, Kind},
+};
 
 /// Column shear, moment and axial force: of a block about its base, of an A-frame's legs at the
 /// apex.
@@ -50,6 +53,13 @@ impl GroundRow {
         k.checked_sub(1).map_or(self.sole_shear, |force| self.leg(force)[force])
     }
 
+    /// Raise the peaks of the same to what they are at a time (s).
+    pub fn raise(&self, time: f64, peaks: &mut [TimedPeak; 4]) {
+        for (k, peak) in peaks.iter_mut().enumerate() {
+            *peak = peak.larger(TimedPeak { value: self.largest(k), time });
+        }
+    }
+
     /// What acts together with the same; with the shear at the sole, in the leg that bears the
     /// larger axial force.
     pub fn together(&self, kind: Kind, k: usize) -> ForcesTogether {
@@ -62,8 +72,8 @@ impl GroundRow {
     }
 }
 
-/// Forces of the left foot and of the right one of a standing body of this weight (N), over a ground
-/// of u_g/g and gamma.
+/// Forces of the left foot and of the right one of a standing body of this weight (N), over a
+/// ground of u_g/g and gamma.
 pub(super) fn standing_feet(
     body: &Body<f64>,
     weight: f64,

@@ -1,8 +1,8 @@
-//! Forces of a rigid body's tendon and dampers: the largest on the springs of a run, and by how much
-//! they change on springs of a quarter of Omega_n.
+//! Forces of a rigid body's tendon and dampers: the largest on the springs of a run, and by how
+//! much they change on springs of a quarter of Omega_n.
 //!
-//! Landings count: a tendon is stretched by the body's motion and a damper slowed down by it, not by
-//! the springs. A force that does change with them is withheld, as every other one.
+//! Landings count: the body's motion stretches a tendon and moves a damper, not the springs. A
+//! force that does change with them is withheld, as every other one.
 
 use crate::answers::{MemberHistory, ModelComparison};
 use dynamics::fem::Demands;

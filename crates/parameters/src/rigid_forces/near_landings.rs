@@ -9,8 +9,8 @@ use rocking::{
 };
 use strong_motion::Record;
 
-/// Forces near landings, at the other samples than `kept`, of a body that presses on the ground:
-/// m (a_g, g + a_v) where both feet press, those of equation (1) where one does. With members, which
+/// Forces near landings, at the other samples than `kept`, of a body that presses on the ground: m
+/// (a_g, g + a_v) where both feet press, those of equation (1) where one does. With members, which
 /// equation (1) has not, m (g + a_v) on the foot that presses more. A landing adds its impulse,
 /// which is not a design force.
 pub(super) fn near_landings(

@@ -11,7 +11,7 @@ pub(super) enum ErrorWords {
     All,
     /// How many motions are lost in all, not of each set.
     Short,
-    /// Nor on which motions, and what they are not judged on.
+    /// Nor on which motions.
     Fewest,
 }
 
@@ -75,7 +75,6 @@ pub(super) fn errors<U>(
         format!("this record: gives up at {} s, {then}; ", significant(s, 3))
     });
     let top = top.filter(|_| ends.is_empty());
-    let unjudged = !row.judged_on_earthquakes();
     let fewest = words == ErrorWords::Fewest;
     let here = top.map_or(nothing(), |top| here(top, (sensitive, until), fewest));
     if fewest {
@@ -85,10 +84,6 @@ pub(super) fn errors<U>(
             peaks.to_string()
         };
         let told = match errors.peak[0] {
-            // the history's error gives way
-            Some(_) if unjudged => {
-                format!("{peaks} {median} (median), {ninety} (90 %); earthquakes not judged")
-            }
             Some(_) => format!("{peaks} {median} (median), {ninety} (90 %){history}"),
             None => format!("most {name} are lost"),
         };
@@ -101,11 +96,7 @@ pub(super) fn errors<U>(
         Some(_) => format!("{peaks} within {median} (median), {ninety} (90 %){on}{history}"),
         None => format!("most {name} are lost"),
     };
-    let again = match row.name.as_deref().filter(|_| unjudged) {
-        Some(key) => format!("; not judged on earthquakes: run again with --for {key}"),
-        None => nothing(),
-    };
-    format!("{ends}{fails}{here}{within}{again}")
+    format!("{ends}{fails}{here}{within}")
 }
 
 /// What the largest displacement on the record errs by, up to when it can be predicted (s).

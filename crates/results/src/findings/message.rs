@@ -262,20 +262,14 @@ impl Finding {
                     be predicted"
                     .into()
             }
-            Self::RestitutionMissed { asked, lowest, highest, .. }
-                if !(lowest.is_finite() && highest.is_finite()) =>
-            {
-                format!(
-                    "no test landing shows the restitution {} that is due",
-                    significant(*asked, 4)
-                )
+            Self::RestitutionMissed { asked, lowest, highest, .. } => {
+                let due = significant(*asked, 4);
+                let [low, high] = [lowest, highest].map(|x| significant(*x, 4));
+                match (lowest + highest).is_finite() {
+                    true => format!("landings have a restitution of {low} to {high}, {due} is due"),
+                    false => format!("no test landing shows the restitution {due} that is due"),
+                }
             }
-            Self::RestitutionMissed { asked, lowest, highest, .. } => format!(
-                "landings have a restitution of {} to {} where {} is due",
-                significant(*lowest, 4),
-                significant(*highest, 4),
-                significant(*asked, 4)
-            ),
             Self::RestitutionOutOfReach { asked, share, least, most } => format!(
                 "restitution {} is {} of equation 2's; springs reach {} to {} of it",
                 significant(*asked, 4),
