@@ -71,7 +71,7 @@ fn options_that_are_no_numbers_or_out_of_range() {
         (&["run", "--integrator", "hht:0.9"], "--integrator is \"hht:0.9\""),
         (
             &["run", "--for", "sap2000", "--integrator", "trbdf2"],
-            "SAP2000 takes hht:ALPHA or newmark:GAMMA:BETA",
+            "SAP2000 takes hht:ALPHA from -1/3 to 0, or newmark:GAMMA:BETA",
         ),
         (&["run", "--substeps", "0"], "--substeps is 0; give a number from 1"),
         (&["run", "--dt", "0.01"], "name it with --record"),

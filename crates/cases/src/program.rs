@@ -185,7 +185,7 @@ mod tests {
             ("integrator = 'hht:0.5'", "program.integrator is \"hht:0.5\"; "),
             (
                 "for = 'sap2000'\nintegrator = 'trbdf2'",
-                "program.integrator is \"trbdf2\"; SAP2000 takes hht:ALPHA or newmark:GAMMA:BETA",
+                "program.integrator is \"trbdf2\"; SAP2000 takes hht:ALPHA from -1/3 to 0",
             ),
             (
                 "for = 'opensees-even'\nintegrator = 'generalized-alpha:0'",
