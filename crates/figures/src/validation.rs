@@ -165,7 +165,8 @@ fn peaks(canvas: &mut Canvas, data: &ValidationFigure<'_>, frame: PanelFrame) {
     let over = |row: &&ValidationPoint| row.overturned_housner || row.overturned_fem;
     for row in data.rows.iter().filter(|row| !over(row)) {
         let (x, y) = pair(row);
-        dot().draw(canvas, panel.at(x, y));
+        let mark = if row.peak_fem.is_finite() { dot() } else { infinite() };
+        mark.draw(canvas, panel.at(x, y));
     }
     for row in data.rows.iter().filter(over) {
         let (x, y) = pair(row);
