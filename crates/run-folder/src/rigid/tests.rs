@@ -12,13 +12,18 @@ use super::*;
 
 /// A run of a short stretch of El Centro.
 fn run(scale: f64, toml: Option<&str>) -> RigidRun {
+    run_within((160.0, 0.1), scale, toml)
+}
+
+/// Up to some Omega_n/2 pi (Hz), to some accuracy.
+fn run_within((most_hz, accuracy): (f64, f64), scale: f64, toml: Option<&str>) -> RigidRun {
     let mut case =
         toml.map_or_else(Case::paper, |text| Case::parse("tuning/test.toml", text)).unwrap();
     let excitation =
         Excitation { scale, duration_s: Some(8.0), ..Excitation::whole(Record::el_centro()) };
     case.set_excitation(excitation).unwrap();
-    case.tuning.max_omega_hz = Some(160.0);
-    case.tuning.accuracy = 0.1;
+    case.tuning.max_omega_hz = Some(most_hz);
+    case.tuning.accuracy = accuracy;
     let job = Job::new(&case, &|_, _, _| {}).unwrap();
     RigidRun::new(case, job, Vec::new(), 0.5)
 }
@@ -294,4 +299,28 @@ fn a_wall_with_a_tendon_is_answered_with_its_tendon() {
     let needed = said.friction_needed.unwrap();
     let by_hand = run.job.record.pga_g() * 2.5e6 / (2.5e6 + 1.2e6);
     assert!((needed / by_hand - 1.0).abs() < 0.02, "{needed} {by_hand}");
+}
+
+/// A tendon's largest force is what the largest motion of its upper end makes of it, T0 + k (length
+/// - height), and a damper's c times the rate of the corner that lifts.
+#[test]
+fn tendon_and_dampers_have_forces_to_design_for() {
+    let wall = "[structure]\nkind = \"block\"\ntotal_height_m = 9.0\nwidth_m = 2.0\n\
+                weight_kn = 900.0\n[tendon]\nstiffness_n_per_m = 4e6\npretension_n = 2e5\n\
+                [damper]\nc_ns_per_m = 1e5\n";
+    let run = run_within((4e4, 2e-3), 1.3, Some(wall));
+    let forces = run.parameters.design_forces.unwrap();
+    let motion = &run.both.with.as_ref().unwrap().history.motion;
+    // the mass, 4.5 m up, is where the tendon ends
+    let stretched = motion.u.iter().zip(&motion.v).map(|(u, v)| u.hypot(4.5 + v) - 4.5);
+    let pull = 2e5 + 4e6 * stretched.fold(0.0, f64::max);
+    let tendon = forces.tendon_n.unwrap();
+    assert!(tendon.holds && pull > 2.02e5, "{tendon:?} {pull}");
+    assert!((tendon.value.unwrap() / pull - 1.0).abs() < 2e-3, "{tendon:?} {pull}");
+    // a corner 2 m from the other one turns about it
+    let rate = motion.theta.windows(2).map(|two| (two[1] - two[0]).abs() / run.job.record.dt);
+    let push = 1e5 * 2.0 * rate.fold(0.0, f64::max);
+    let damper = forces.damper_n.unwrap();
+    assert!(damper.holds, "{damper:?}");
+    assert!((damper.value.unwrap().abs() / push - 1.0).abs() < 0.05, "{damper:?} {push}");
 }
