@@ -72,8 +72,8 @@ impl ProgramName {
         match self {
             Self::Sap2000 | Self::Etabs => match integrator {
                 Integrator::Newmark { .. } => true,
-                // users write -0.3333 for -1/3
-                Integrator::Hht { alpha } => alpha > -1.0 / 3.0 - 1e-3,
+                // but for rounding
+                Integrator::Hht { alpha } => alpha > -1.0 / 3.0 - 1e-9,
                 _ => false,
             },
             Self::OpenSees => !matches!(integrator, Integrator::GeneralizedAlpha { .. }),
@@ -190,7 +190,7 @@ mod tests {
         }
         assert_eq!("SAP2000".parse(), Ok(ProgramName::Sap2000));
         let hht = |alpha: f64| ProgramName::Etabs.has(Integrator::Hht { alpha });
-        assert_eq!([-0.4, -0.3333, -0.3334, 0.0].map(hht), [false, true, true, true]);
+        assert_eq!([-0.4, -0.3334, -1.0 / 3.0, 0.0].map(hht), [false, false, true, true]);
         assert!(ProgramName::OpenSees.has(Integrator::Hht { alpha: -0.4 }));
         assert!("abaqus".parse::<ProgramName>().unwrap_err().to_string().contains("opensees-even"));
     }

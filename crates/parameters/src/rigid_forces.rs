@@ -113,7 +113,7 @@ pub fn design_forces(
         }
     }
     let [shear, moment, axial] = rows.map(Some);
-    let of_members = member_forces(both, softer, dt);
+    let of_members = member_forces(both, softer, (dt, least));
     let all = DesignForces { column_shear_n: shear, axial_n: axial, ..of_members };
     match kind {
         Kind::Block => DesignForces { column_base_moment_nm: moment, ..all },

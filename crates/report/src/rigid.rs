@@ -169,7 +169,7 @@ impl RigidRun {
         all.extend(parameters.design_forces.iter().filter_map(|forces| forces.at_rest()));
         all.extend(self.report.findings());
         all.extend(reference::histories(&self.both));
-        let until = all.iter().find_map(Finding::predictable_to);
+        let until = all.iter().filter_map(Finding::predictable_to).reduce(f64::min);
         all.extend(judged::rigid(&self.case.structure, parameters, &self.job.record, until));
         all
     }

@@ -29,7 +29,8 @@
 //!   with a restitution smaller by 1e-5.
 //! - **Suites** (files, motions made for the structure, motions like earthquakes) are judged
 //!   together and apart.
-//! - **Failures.** A history that meets its bound on work is an outcome of its own: listed by name,
+//! - **Failures.** A history that meets its bound on work, or in which an emulated program gives
+//!   up, is an outcome of its own: listed by name,
 //!   a disagreement on overturning, an infinite NRMSE in the quantiles, and in D a peak at the
 //!   other end of the scale than Housner's.
 //!

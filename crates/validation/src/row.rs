@@ -24,7 +24,8 @@ pub enum RecordOutcome {
     NeverLifted,
     /// Housner's solution met its bound on work or a number that is not finite.
     HousnerFailed,
-    /// The finite element history met its bound on work or a number that is not finite.
+    /// The finite element history met its bound on work or a number that is not finite, or the
+    /// program that is emulated gave up.
     FemFailed,
 }
 
@@ -121,11 +122,14 @@ impl Row {
         matches!(self.outcome, RecordOutcome::HousnerFailed | RecordOutcome::FemFailed)
     }
 
-    /// The largest of the peaks' errors, of those that are compared.
+    /// The largest of the peaks' errors; of steps of one size, which have no energy account,
+    /// without those of forces.
     pub(crate) fn peak_error(&self) -> Option<f64> {
-        let displacement = self.displacement_error?;
-        let others = [self.uplift_error, self.base_shear_error, self.axial_error];
-        Some(others.into_iter().flatten().fold(displacement, f64::max))
+        let displacements = self.displacement_error?.max(self.uplift_error?);
+        if self.energy_residual.is_none() {
+            return Some(displacements);
+        }
+        Some(displacements.max(self.base_shear_error?).max(self.axial_error?))
     }
 
     /// Whether Housner's body rocked without toppling and its history is well conditioned: NRMSE

@@ -26,7 +26,7 @@ pub(super) struct JudgedProgram {
 
 /// Springs to be judged.
 pub(super) struct JudgedSprings {
-    /// The run's, with the structure and the springs as judged.
+    /// The run's, with the springs that are judged.
     pub parameters: Parameters,
     pub model: JudgedModel,
     /// None of steps that follow touches.
@@ -62,11 +62,16 @@ impl JudgedSprings {
             return Ok(Self { parameters, model, program, steps, not_to_be_used });
         }
         let Some(row) = &parameters.program else {
-            return Err(CommandError::Result(
-                "validate: these parameters have no springs for steps of one size; give tune run a \
-                 program, --for sap2000, etabs or opensees-even, or judge --stepping events"
-                    .into(),
-            ));
+            let why = match parameters.members().is_none() {
+                true => stepped_model(&parameters, stepping).err().map(|why| why.to_string()),
+                false => None,
+            };
+            let why = why.as_deref().and_then(|why| why.strip_prefix("export: "));
+            let why = why.unwrap_or(
+                "springs for steps of one size are not made for dampers, tendons and friction; \
+                 give --stepping events",
+            );
+            return Err(CommandError::Result(format!("validate: {why}")));
         };
         let stepped = stepped_model(&parameters, stepping)?;
         let (model, settings) = (stepped.model, stepped.settings);

@@ -10,7 +10,7 @@ pub struct StepForces<const N: usize> {
 }
 
 /// Of every force the steps at which it was larger than ever before, of each sign by itself; of
-/// those in one part of the record's time step the last.
+/// those in one part of the record's time step the last: times are asked for by parts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunningPeaks<const N: usize> {
     /// Positive, negative.
@@ -57,7 +57,8 @@ impl<const N: usize> RunningPeaks<N> {
 
     fn last(&self, force: usize, sign: usize, until: f64) -> Option<StepForces<N>> {
         let peaks = &self.of[force][sign];
-        let count = peaks.partition_point(|step| step.time <= until);
+        // a step that ends there ends within rounding of it
+        let count = peaks.partition_point(|step| step.time <= until * (1.0 + 1e-12));
         peaks[..count].last().copied()
     }
 }

@@ -42,6 +42,16 @@ impl GroundRow {
         Self { stands: false, sole_shear, legs }
     }
 
+    /// Pressed by n (N) on the foot of a side (1: right), what is across it not known.
+    pub fn pressing(kind: Kind, body: &Body<f64>, side: f64, n: f64) -> Self {
+        if kind == Kind::AFrame {
+            let along = [0.0, 0.0, -n * body.height / body.radius()];
+            return Self { stands: false, sole_shear: 0.0, legs: [along; 2] };
+        }
+        let feet = if side > 0.0 { [[0.0; 2], [0.0, n]] } else { [[0.0, n], [0.0; 2]] };
+        Self::new(kind, body, 0.0, feet)
+    }
+
     /// The leg where a force of a leg is the larger one: 0 shear, 1 moment, 2 axial force.
     fn leg(&self, force: usize) -> ForceRow {
         let [left, right] = self.legs;

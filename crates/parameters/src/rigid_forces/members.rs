@@ -4,6 +4,7 @@
 //! Landings count: the body's motion stretches a tendon and moves a damper, not the springs. A
 //! force that does change with them is withheld, as every other one.
 
+use super::relative;
 use crate::answers::{MemberHistory, ModelComparison};
 use dynamics::fem::Demands;
 use results::{DesignForce, DesignForces};
@@ -15,11 +16,11 @@ const TENDON: usize = 7;
 const DAMPERS: [usize; 2] = [8, 9];
 
 /// Those of a run, in an otherwise empty set; samples are `dt` (s) apart. `softer`: on springs of a
-/// quarter of Omega_n.
+/// quarter of Omega_n; forces below `least` (N) are none.
 pub(super) fn member_forces(
     both: &ModelComparison,
     softer: Option<&MemberHistory>,
-    dt: f64,
+    (dt, least): (f64, f64),
 ) -> DesignForces {
     let (Some(own), Some(softer)) = (&both.with, softer) else { return DesignForces::default() };
     let ended = [own, softer].iter().any(|of| of.history.outcome.ends_early().is_some());
@@ -33,13 +34,13 @@ pub(super) fn member_forces(
     };
     let force = |columns: &[usize]| {
         let (found, other) = (largest(own, columns), largest(softer, columns));
-        let change = (other.value.abs() / found.value.abs() - 1.0).abs();
-        let change = Some(change).filter(|change| change.is_finite() && !ended);
-        DesignForce::measured(found.value, found.time, change)
+        let change = relative(found.value, other.value, least).filter(|_| !ended);
+        let force = DesignForce::measured(found.value, found.time, change);
+        (found.value.abs() > least).then_some(force)
     };
     DesignForces {
-        tendon_n: own.members.tendon.map(|_| force(&[TENDON])),
-        damper_n: own.members.damper.map(|_| force(&DAMPERS)),
+        tendon_n: own.members.tendon.and_then(|_| force(&[TENDON])),
+        damper_n: own.members.damper.and_then(|_| force(&DAMPERS)),
         ..DesignForces::default()
     }
 }

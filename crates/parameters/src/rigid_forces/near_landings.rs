@@ -10,9 +10,9 @@ use rocking::{
 use strong_motion::Record;
 
 /// Forces near landings, at the other samples than `kept`, of a body that presses on the ground: m
-/// (a_g, g + a_v) where both feet press, those of equation (1) where one does. With members, which
-/// equation (1) has not, m (g + a_v) on the foot that presses more. A landing adds its impulse,
-/// which is not a design force.
+/// (a_g, g + a_v) where both feet press and it can stand so, those of equation (1) where one does.
+/// With members, which equation (1) has not, what m (g + a_v) of a vertical motion presses with. A
+/// landing adds its impulse, which is not a design force.
 pub(super) fn near_landings(
     (kind, body): (Kind, &Body<f64>),
     record: &Record,
@@ -28,18 +28,19 @@ pub(super) fn near_landings(
         }
         let at = |record: &[f64]| record.get(i).copied().unwrap_or(0.0) / GRAVITY;
         let ground = (at(&record.accel), 1.0 + at(record.up()));
-        let side = if right > left { 1.0 } else { -1.0 };
-        let (f, n) = if has_members {
-            (0.0, ground.1)
-        } else if left.min(right) > 0.0 {
-            let feet = standing_feet(body, body.mass * GRAVITY, ground);
+        let (side, weight) = (if right > left { 1.0 } else { -1.0 }, body.mass * GRAVITY);
+        if has_members {
+            let shaken = !record.up().is_empty() && ground.1 > 0.0;
+            return shaken.then(|| (i, GroundRow::pressing(kind, body, side, weight * ground.1)));
+        }
+        if left.min(right) > 0.0 && regime::stands(body, ground) {
+            let feet = standing_feet(body, weight, ground);
             return Some((i, GroundRow::new(kind, body, theta[i], feet)));
-        } else {
-            let [before, after] = [i.saturating_sub(1), (i + 1).min(theta.len() - 1)];
-            let rate = (theta[after] - theta[before]) / ((after - before) as f64 * record.dt);
-            regime::forces(body, side, theta[i], rate, ground)
-        };
-        let force = [f, n].map(|share| share * body.mass * GRAVITY);
+        }
+        let [before, after] = [i.saturating_sub(1), (i + 1).min(theta.len() - 1)];
+        let rate = (theta[after] - theta[before]) / ((after - before).max(1) as f64 * record.dt);
+        let (f, n) = regime::forces(body, side, theta[i], rate, ground);
+        let force = [f, n].map(|share| share * weight);
         let feet = if side > 0.0 { [[0.0; 2], force] } else { [force, [0.0; 2]] };
         (n > 0.0).then(|| (i, GroundRow::new(kind, body, theta[i], feet)))
     };
@@ -95,5 +96,18 @@ mod tests {
         let least = 640.0 * (GRAVITY + record.up()[30]);
         assert!((tied[0].1.largest(3) / -least - 1.0).abs() < 1e-12);
         assert_eq!(tied[0].1.largest(0), 0.0);
+    }
+
+    /// Pressed by n on one foot, a block's base bears n b; of a frame's leg no moment is known, and
+    /// its axial force is at least what of n is along it.
+    #[test]
+    fn members_leave_a_leg_its_axial_force_alone() {
+        let [frame, block] = [Structure::paper(), Structure::block(2.1, 0.45, 640.0).unwrap()]
+            .map(|structure| structure.body::<f64>());
+        let row = GroundRow::pressing(Kind::AFrame, &frame, 1.0, 7e6);
+        assert_eq!([0, 1, 2].map(|k| row.largest(k)), [0.0; 3]);
+        assert!((row.largest(3) / (-7e6 * 61.0 / 61.0_f64.hypot(6.1)) - 1.0).abs() < 1e-12);
+        let row = GroundRow::pressing(Kind::Block, &block, -1.0, 7e3);
+        assert!((row.largest(2).abs() - 7e3 * 0.225).abs() < 1e-9 && row.largest(3) == -7e3);
     }
 }

@@ -8,3 +8,4 @@ mod fixed_base;
 mod members;
 mod reference;
 mod rigid_limit;
+mod steps;
