@@ -294,6 +294,7 @@ pub fn with_verdict<U>(
         median: errors.peak[0],
         motions: errors.histories,
         floor: row.expected.floor,
+        asked,
     }));
     let (program, step_s) = (row.program(), row.step_s);
     findings.extend(not_to_be_used.and_then(|NotToBeUsed { fault, advice }| {

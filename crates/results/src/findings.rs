@@ -178,6 +178,8 @@ pub enum Finding {
         median: Option<f64>,
         motions: usize,
         floor: f64,
+        #[serde(default)]
+        asked: bool,
     },
     /// The springs are of no use there.
     ProgramNotToBeUsed {
@@ -377,6 +379,7 @@ impl Finding {
             Self::ForetoldUpTo { later_forces, .. } if later_forces.is_empty() => Weight::Note,
             Self::ProgramStepTooLong { asked: false, .. }
             | Self::ProgramLoses { asked: false, .. }
+            | Self::ProgramErrsOnEarthquakes { asked: false, .. }
             | Self::ProgramNotToBeUsed { asked: false, .. }
             | Self::ProgramRestitution { asked: false }
             | Self::ProgramStepForAccuracy { .. } => Weight::Note,

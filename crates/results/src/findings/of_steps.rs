@@ -124,7 +124,7 @@ impl Finding {
                 "the springs for steps of {} in {program} are not to be used: {fault}",
                 quantity(*step_s, "s")
             ),
-            Self::ProgramErrsOnEarthquakes { program, step_s, median, motions, floor } => {
+            Self::ProgramErrsOnEarthquakes { program, step_s, median, motions, floor, .. } => {
                 let errs = match median {
                     Some(median) => format!("errs by {} (median peak)", percent(*median)),
                     None => "loses most histories".into(),
