@@ -3,14 +3,21 @@ def follow(feet, accuracy, sample):
     # TRBDF2 is L-stable: Newmark (1/2, 1/4) and HHT fail on springs this stiff, Newmark with damping spoils the answer.
     analysis("TRBDF2")
     steps = Steps(feet, LANDING, RECORD_DT / STEPS_PER_SAMPLE, RISE, accuracy)
-    rows = [[0.0, *sample()]]
+    before = now = [0.0, *sample()]
+    rows = [now]
     for i in range(1, SAMPLES):
-        if not steps.advance(i * RECORD_DT):
-            print(f"no convergence at {ops.getTime():.5f} s, in steps of {steps.allowed:.1e} s: the history ends", file=sys.stderr)
-            break
-        rows.append([i * RECORD_DT, *sample()])
-        if math.floor(i * RECORD_DT) > math.floor((i - 1) * RECORD_DT):
-            print(f"{i * RECORD_DT:.0f} s of {(SAMPLES - 1) * RECORD_DT:g} s", file=sys.stderr, flush=True)
+        end = i * RECORD_DT
+        while now[0] < end - 1e-6 * RECORD_DT:
+            if not steps.advance(end):
+                print(f"no convergence at {ops.getTime():.5f} s, in steps of {steps.allowed:.1e} s: the history ends", file=sys.stderr)
+                return rows, steps
+            before, now = now, [ops.getTime(), *sample()]
+        # a step that does not divide the record's ends beyond the sample, which lies on the line to there
+        part = (end - before[0]) / (now[0] - before[0])
+        values = [a + part * (b - a) for a, b in zip(before[1:], now[1:])] if part < 1.0 - 1e-6 else now[1:]
+        rows.append([end, *values])
+        if math.floor(end) > math.floor((i - 1) * RECORD_DT):
+            print(f"{end:.0f} s of {(SAMPLES - 1) * RECORD_DT:g} s", file=sys.stderr, flush=True)
     return rows, steps
 
 

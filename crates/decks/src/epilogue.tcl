@@ -15,15 +15,28 @@ proc follow {feet} {
     # TRBDF2 is L-stable: Newmark (1/2, 1/4) and HHT fail on springs this stiff, Newmark with damping spoils the answer.
     solver TRBDF2 Transient
     steps::start $feet $landing [expr {$recordDt / $stepsPerSample}] $rise $accuracy
-    set rows [list [concat 0.0 [sample]]]
+    set now [concat 0.0 [sample]]
+    set before $now
+    set rows [list $now]
     for {set i 1} {$i < $samples} {incr i} {
-        if {![steps::advance [expr {$i * $recordDt}]]} {
-            puts stderr "no convergence at [getTime] s, in steps of $steps::allowed s: the history ends"
-            break
+        set end [expr {$i * $recordDt}]
+        while {[lindex $now 0] < $end - 1e-6 * $recordDt} {
+            if {![steps::advance $end]} {
+                puts stderr "no convergence at [getTime] s, in steps of $steps::allowed s: the history ends"
+                return $rows
+            }
+            set before $now
+            set now [concat [getTime] [sample]]
         }
-        lappend rows [concat [expr {$i * $recordDt}] [sample]]
-        if {floor($i * $recordDt) > floor(($i - 1) * $recordDt)} {
-            puts stderr [format "%.0f s of %g s" [expr {$i * $recordDt}] [expr {($samples - 1) * $recordDt}]]
+        # a step that does not divide the record's ends beyond the sample, which lies on the line to there
+        set part [expr {($end - [lindex $before 0]) / ([lindex $now 0] - [lindex $before 0])}]
+        set row $end
+        foreach a [lrange $before 1 end] b [lrange $now 1 end] {
+            lappend row [expr {$part < 1.0 - 1e-6 ? $a + $part * ($b - $a) : $b}]
+        }
+        lappend rows $row
+        if {floor($end) > floor(($i - 1) * $recordDt)} {
+            puts stderr [format "%.0f s of %g s" $end [expr {($samples - 1) * $recordDt}]]
         }
     }
     return $rows

@@ -15,7 +15,7 @@ class Steps:
 
     def __init__(self, feet, landing, longest, rise, accuracy=0.002):
         self.feet = feet
-        self.size = RECORD_DT / max(1, math.ceil(RECORD_DT / STEP - 1e-6))
+        self.size = STEP
         self.allowed = self.smallest = self.size
         self.taken = self.refused = self.late = 0
         self.closed = None
@@ -37,13 +37,10 @@ class Steps:
         self.refused, self.allowed = self.refused + 1, h
         return h > 1.5 * least and self.step(0.5 * h, least) and self.step(0.5 * h, least)
 
-    def advance(self, end):
-        """To time `end`, s. False if Newton's iteration gives up in the shortest step."""
-        for _ in range(round((end - ops.getTime()) / self.size)):
-            parts = TOUCHES if TOUCHES > 1 and self.touches() else 1
-            if not all(self.step(self.size / parts, self.size / parts / SUBSTEPS) for _ in range(parts)):
-                return False
-        return True
+    def advance(self, _):
+        """One step, wherever the next sample is. False if Newton's iteration gives up in the shortest part of it."""
+        parts = TOUCHES if TOUCHES > 1 and self.touches() else 1
+        return all(self.step(self.size / parts, self.size / parts / SUBSTEPS) for _ in range(parts))
 
     def report(self):
         return f"{self.taken} steps, the shortest {self.smallest:.1e} s, {self.refused} halved"

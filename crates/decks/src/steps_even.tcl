@@ -9,7 +9,7 @@ namespace eval steps {
     proc start {nodes landing longest rise {accuracy 0.002}} {
         foreach name {feet size allowed smallest taken refused closed} { variable $name }
         set feet $nodes
-        set size [expr {$::recordDt / max(1.0, ceil($::recordDt / $::step - 1e-6))}]
+        set size $::step
         set allowed $size
         set smallest $size
         set taken 0
@@ -46,16 +46,13 @@ namespace eval steps {
         return [expr {$h > 1.5 * $least && [one [expr {0.5 * $h}] $least] && [one [expr {0.5 * $h}] $least]}]
     }
 
-    # To time `end`, s. 0 if Newton's iteration gives up in the shortest step.
+    # One step, wherever the next sample is. 0 if Newton's iteration gives up in the shortest part of it.
     proc advance {end} {
         variable size
-        set count [expr {round(($end - [getTime]) / $size)}]
-        for {set i 0} {$i < $count} {incr i} {
-            set parts [expr {$::touches > 1 && [touches] ? $::touches : 1}]
-            set h [expr {$size / $parts}]
-            for {set k 0} {$k < $parts} {incr k} {
-                if {![one $h [expr {$h / $::substeps}]]} { return 0 }
-            }
+        set parts [expr {$::touches > 1 && [touches] ? $::touches : 1}]
+        set h [expr {$size / $parts}]
+        for {set k 0} {$k < $parts} {incr k} {
+            if {![one $h [expr {$h / $::substeps}]]} { return 0 }
         }
         return 1
     }
