@@ -126,7 +126,8 @@ pub struct StructureForce {
     pub holds: bool,
     /// What the column's base bears at that time; none of the ground's forces.
     pub together: Option<ForcesTogether>,
-    /// Where, above the base along the column (m), of a column's shear: the middle of an element.
+    /// Where, above the base along the column (m), of a column's shear or tension: the middle of an
+    /// element, or its top.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub above_base_m: Option<f64>,
     /// What was found, whether it holds or not, and what with another mesh and on other springs [N,

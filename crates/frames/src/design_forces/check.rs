@@ -92,7 +92,7 @@ pub(super) struct PeakOfForce {
     pub cutoff_hz: Option<f64>,
     /// What the column's base bears at that time.
     pub together: Option<ForcesTogether>,
-    /// Of a shear: where, above the base along the column (m); 0 at the base.
+    /// Of a shear or a tension: where, above the base along the column (m); 0 at the base.
     pub above_base_m: Option<f64>,
 }
 
@@ -194,16 +194,23 @@ impl Series {
             )?;
             Some(PeakOfForce { above_base_m: Some(*height), ..peak })
         });
-        // of a column that is always pressed there is none
-        let pulled: Vec<f64> = base[1].iter().map(|axial| axial.max(0.0)).collect();
+        let base_axial = (axial, &base[1], 0.0);
+        let above_axial: Vec<Vec<f64>> =
+            column.axial_above.iter().map(|series| self.smooth(series, cutoff_hz)).collect();
+        let above_axial = column.axial_above.iter().zip(&above_axial).zip(&column.heights);
+        let above_axial = above_axial.map(|((series, smooth), height)| (series, smooth, *height));
+        // its own weight presses the base most; of a column that is always pressed there is none
         let tension =
-            self.largest(&pulled).filter(|peak| peak.value > 0.0).map(|filtered| PeakOfForce {
-                kind: ForceKind::AxialTension,
-                filtered,
-                raw: column.at_steps.most(1, f64::INFINITY).map_or(0.0, |step| step.forces[1]),
-                cutoff_hz: Some(cutoff_hz),
-                together: None,
-                above_base_m: None,
+            [base_axial].into_iter().chain(above_axial).filter_map(|(series, smooth, height)| {
+                let pulled: Vec<f64> = smooth.iter().map(|axial| axial.max(0.0)).collect();
+                Some(PeakOfForce {
+                    kind: ForceKind::AxialTension,
+                    filtered: self.largest(&pulled).filter(|peak| peak.value > 0.0)?,
+                    raw: series.most,
+                    cutoff_hz: Some(cutoff_hz),
+                    together: None,
+                    above_base_m: Some(height),
+                })
             });
         let peaks = at_base.into_iter().chain(above);
         let peaks = peaks

@@ -29,6 +29,8 @@ pub struct FineSeries {
     pub means: Vec<f64>,
     /// Largest magnitude at any step, unfiltered, with its sign.
     pub largest: f64,
+    /// Largest value at any step, unfiltered; 0 if all are below.
+    pub most: f64,
 }
 
 /// Forces of one column.
@@ -36,7 +38,8 @@ pub struct FineSeries {
 /// ```text
 ///   an element has one shear and one axial force, those of its middle: half its mass is above it
 ///   shear at an end: the middle's and what the half between them needs, m_el a/2 of the end
-///   axial force at the base: N_1 + (N_1 - N_2)/2, which holds the weight of the lower half, too
+///   axial force at the base: N_1 + (N_1 - N_2)/2, which holds the weight of the lower half, too;
+///   at the top: N_n + (N_n - N_n-1)/2
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FineColumn {
@@ -45,6 +48,8 @@ pub struct FineColumn {
     /// Shear of every element and of the top; none of a column without mass, whose shear is one
     /// (N).
     pub above: Vec<FineSeries>,
+    /// Axial force at the same places (N).
+    pub axial_above: Vec<FineSeries>,
     /// Of the middle of each element and of the top, above the base along the column (m).
     pub heights: Vec<f64>,
     /// Moment at its top (N m).
@@ -55,11 +60,13 @@ pub struct FineColumn {
 
 impl FineColumn {
     fn series(&self) -> impl Iterator<Item = &FineSeries> {
-        self.base.iter().chain(&self.above).chain([&self.top_moment])
+        let above = self.above.iter().chain(&self.axial_above);
+        self.base.iter().chain(above).chain([&self.top_moment])
     }
 
     fn series_mut(&mut self) -> impl Iterator<Item = &mut FineSeries> {
-        self.base.iter_mut().chain(&mut self.above).chain([&mut self.top_moment])
+        let above = self.above.iter_mut().chain(&mut self.axial_above);
+        self.base.iter_mut().chain(above).chain([&mut self.top_moment])
     }
 }
 
@@ -114,8 +121,10 @@ impl FineRecorder {
     /// So many parts to a time step of a record of so many samples.
     pub(crate) fn new(frame: &Frame, dt: f64, samples: usize, parts: usize) -> Self {
         let columns = frame.columns();
-        let series =
-            || FineSeries { means: vec![0.0; samples.saturating_sub(1) * parts], largest: 0.0 };
+        let series = || FineSeries {
+            means: vec![0.0; samples.saturating_sub(1) * parts],
+            ..FineSeries::default()
+        };
         let of = |column: &FrameColumn| {
             let mut below = 0.0;
             let mut heights: Vec<f64> = Vec::new();
@@ -130,6 +139,7 @@ impl FineRecorder {
             FineColumn {
                 base: [(); BASE_FORCES].map(|()| series()),
                 above: heights.iter().map(|_| series()).collect(),
+                axial_above: heights.iter().map(|_| series()).collect(),
                 heights,
                 top_moment: series(),
                 at_steps: RunningPeaks::default(),
@@ -185,6 +195,7 @@ impl FineRecorder {
             if end.abs() > series.largest.abs() {
                 series.largest = *end;
             }
+            series.most = series.most.max(*end);
         }
         let mut place = 0;
         for column in &mut self.forces.columns {
@@ -250,18 +261,22 @@ fn column_forces(
         first.moments[column.base_end],
     ]);
     let mut last = first;
+    let mut axials = Vec::new();
     for (i, &beam) in beams.iter().enumerate() {
-        last = frame.bearing(beam, q, v);
+        let before = std::mem::replace(&mut last, frame.bearing(beam, q, v));
         if massive {
             out.push(last.shear);
+            axials.push(last.axial);
         }
         if i == 1 {
             out[axial] += 0.5 * (first.axial - last.axial);
         }
+        if massive && i + 1 == beams.len() {
+            out.push(last.shear + lacks(highest, column.top_end));
+            axials.push(last.axial + 0.5 * (last.axial - before.axial));
+        }
     }
-    if massive {
-        out.push(last.shear + lacks(highest, column.top_end));
-    }
+    out.extend(axials);
     out.push(last.moments[column.top_end]);
 }
 
