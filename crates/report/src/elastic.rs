@@ -34,7 +34,7 @@ use strong_motion::Record;
 
 /// Part of the weight below which the ground's force tells nothing of friction: the structure all
 /// but flies.
-const LEAST_PRESS: f64 = 0.05;
+const LEAST_PRESS: f64 = 0.1;
 
 /// Share of the feet's distance above which it is said that they end elsewhere than they began.
 const LEAST_APART: f64 = 1e-3;
@@ -85,26 +85,29 @@ pub fn top_height(structure: &ElasticStructure) -> f64 {
 }
 
 impl ElasticParts<'_> {
-    /// Friction coefficient that the structure on rigid ground needs, and when (s): the ground's
-    /// forces on all corners together.
-    fn friction_needed(&self) -> TimedPeak {
-        let weight = self.assembled.frame.total_mass() * rocking::scalar::GRAVITY;
-        let needed = |corners: &Vec<[f64; 2]>| {
-            let (h, n) =
-                corners.iter().fold((0.0, 0.0), |(h, n), force| (h + force[0], n + force[1]));
-            if n > LEAST_PRESS * weight { (h / n).abs() } else { 0.0 }
-        };
+    /// Friction coefficient that a footing on rigid ground needs, and when (s); how much of what it
+    /// bears at rest presses it then. The footing that needs most: thrusts of two cancel.
+    fn friction_needed(&self) -> (TimedPeak, f64) {
+        let frame = &self.assembled.frame;
         let forces = &self.answer.histories.reference.history.forces;
-        let series: Vec<f64> = forces.iter().map(needed).collect();
-        TimedPeak::of(self.record.dt, &series).unwrap_or_default()
-    }
-
-    /// What presses the ground at a time (s), over the weight.
-    fn press_over_weight(&self, time: f64) -> Option<f64> {
-        let weight = self.assembled.frame.total_mass() * rocking::scalar::GRAVITY;
-        let forces = &self.answer.histories.reference.history.forces;
-        let corners = forces.get((time / self.record.dt).round() as usize)?;
-        Some(corners.iter().map(|force| force[1]).sum::<f64>() / weight)
+        let sizes: Vec<usize> =
+            frame.places().chunk_by(|a, b| a.shares_node(b)).map(<[_]>::len).collect();
+        let share = frame.total_mass() * rocking::scalar::GRAVITY / sizes.len().max(1) as f64;
+        let mut most = (TimedPeak::default(), 0.0);
+        for (i, corners) in forces.iter().enumerate() {
+            let mut first = 0;
+            for size in &sizes {
+                let footing = &corners[first..first + size];
+                first += size;
+                let [h, n] = [0, 1].map(|k| footing.iter().map(|force| force[k]).sum::<f64>());
+                let needed = (h / n).abs();
+                if n > LEAST_PRESS * share && needed > most.0.value {
+                    let time = i as f64 * self.record.dt;
+                    most = (TimedPeak { value: needed, time }, n / share);
+                }
+            }
+        }
+        most
     }
 
     /// All findings.
@@ -122,12 +125,12 @@ impl ElasticParts<'_> {
             let left_out = Finding::NearMotionsLeftOut { motions, all: none };
             all.extend((motions > 0).then_some(left_out));
         }
-        let needed = self.friction_needed();
+        let (needed, press) = self.friction_needed();
         all.extend((needed.value > self.friction).then(|| Finding::Sliding {
             needed: needed.value,
             time_s: Some(needed.time),
             available: self.friction,
-            press_over_weight: self.press_over_weight(needed.time),
+            press_over_weight: Some(press),
         }));
         let predictable = parameters.on_record.is_none_or(|on| on.foretold_s.is_none());
         let apart = self.feet_apart();
@@ -275,7 +278,7 @@ impl ElasticParts<'_> {
         run.taken.short_record = Some(self.case.excitation.short_line());
         run.taken.vertical = self.record.vertical.is_some();
         run.taken.assumed = Assumed::all(&self.case.assumptions());
-        run.friction_needed = Some(self.friction_needed().value);
+        run.friction_needed = Some(self.friction_needed().0.value);
         run.sap2000 = self.assembled.members == Members::default();
         run.sections.extend(self.comparison(&run));
         run

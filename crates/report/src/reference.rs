@@ -84,7 +84,15 @@ impl HousnerReport {
         let fallen = samples_until(with.matched.overturned_fem_s, record.dt);
         let samples = fallen.min(with.demands.feet.len());
         let landings = &with.history.landings;
-        let mut needed = TimedPeak { value: 0.0, time: 0.0 };
+        // as for Housner's: it lifts where the ground's force passes through the foot
+        let lifts = with.demands.feet[..samples].iter().position(|feet| {
+            let [left, right] = feet.map(|[_, press]| press > 0.0);
+            left != right
+        });
+        let mut needed = lifts.map_or(TimedPeak { value: 0.0, time: 0.0 }, |i| TimedPeak {
+            value: body.half_width / body.height,
+            time: i as f64 * record.dt,
+        });
         for i in fem::between_landings(body, record.dt, landings, samples) {
             let [[left_h, left_n], [right_h, right_n]] = with.demands.feet[i];
             let (along, press) = ((left_h + right_h).abs(), left_n + right_n);

@@ -243,7 +243,8 @@ pub enum Finding {
         needed: f64,
         time_s: Option<f64>,
         available: f64,
-        /// Force that presses the ground then, over the weight, of an elastic structure.
+        /// Force that presses the footing then, over its share of the weight, of an elastic
+        /// structure.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         press_over_weight: Option<f64>,
     },

@@ -56,8 +56,8 @@ pub struct Regime {
 }
 
 /// Check a history against the record (m/s2; horizontal, and vertical, zero beyond its last sample)
-/// and scale that made it, at the samples and on either side of each impact, up to its overturning:
-/// what a body asks of the ground while it falls is no question of rocking.
+/// and scale that made it, at the samples, where it first lifts and on either side of each impact,
+/// up to its overturning: what a body asks of the ground while it falls is no question of rocking.
 pub fn check(
     body: &Body<f64>,
     dt: f64,
@@ -73,6 +73,11 @@ pub fn check(
         Worst { friction: TimedPeak { value: 0.0, time: 0.0 }, lowest: 1.0, flight: None };
     let mut impacts = rocking.impacts.iter().peekable();
     let upright = samples_until(rocking.overturned(), dt);
+    // it lifts where the ground's force passes through the foot, between samples
+    if let Some(uplift) = rocking.uplifts.first() {
+        let value = body.half_width / body.height;
+        worst.friction = TimedPeak { value, time: uplift.time };
+    }
     for (i, (&theta, &rate)) in rocking.theta.iter().zip(&rocking.rate).enumerate().take(upright) {
         let time = i as f64 * dt;
         while let Some(impact) = impacts.next_if(|impact| impact.time <= time) {

@@ -27,6 +27,11 @@ pub struct Reach {
 }
 
 impl PlaceOnNode {
+    /// Whether it is on the same node as another place: on the same footing.
+    pub fn shares_node(&self, other: &Self) -> bool {
+        self.index == other.index
+    }
+
     /// Where it is at q.
     #[inline(always)]
     pub fn reach(&self, q: &[f64]) -> Reach {

@@ -16,7 +16,7 @@ impl Finding {
                     time_s.map_or("in a landing".into(), |time| format!("at t = {}", s(time)));
                 let light = press_over_weight.filter(|share| *share < LIGHT);
                 let when = light.map_or(when.clone(), |share| {
-                    format!("{when}, under {} of the weight", percent(share))
+                    format!("{when}, under {} of what the footing bears at rest", percent(share))
                 });
                 format!(
                     "the feet would slide: friction of {} is needed {when}, {} is available",
