@@ -31,21 +31,26 @@ pub struct Measures {
 
 impl Record {
     /// Ground velocity at the samples (m/s): the integral from rest of the acceleration, linear
-    /// between samples, less its mean, so that the ground is at rest again at the end.
+    /// between samples, less its mean, so that the ground is at rest again at the end: what is left
+    /// over in a recording is an error of the instrument.
     pub fn velocity(&self) -> Vec<f64> {
         let steps = self.accel.len().saturating_sub(1).max(1) as f64;
-        let mut velocity = Vec::with_capacity(self.accel.len());
-        let mut v = 0.0;
-        for (i, a) in self.accel.iter().enumerate() {
-            if i > 0 {
-                v += 0.5 * (self.accel[i - 1] + a) * self.dt;
-            }
-            velocity.push(v);
-        }
+        let mut velocity = self.velocity_from_rest();
+        let last = velocity.last().copied().unwrap_or(0.0);
         for (i, value) in velocity.iter_mut().enumerate() {
-            *value -= v * i as f64 / steps;
+            *value -= last * i as f64 / steps;
         }
         velocity
+    }
+
+    /// The same with its mean (m/s): of a pulse in closed form, which may leave the ground moving.
+    pub fn velocity_from_rest(&self) -> Vec<f64> {
+        let mut v = 0.0;
+        let steps = self.accel.windows(2).map(|pair| {
+            v += 0.5 * (pair[0] + pair[1]) * self.dt;
+            v
+        });
+        std::iter::once(0.0).chain(steps).take(self.accel.len()).collect()
     }
 
     /// What describes the record.
@@ -111,6 +116,15 @@ mod tests {
         assert!((m.arias_m_per_s - PI / (2.0 * GRAVITY) * 2.0).abs() < 1e-6, "{m:?}");
         assert!(m.offset.abs() < 1e-12);
         assert!((m.pulse_period_s - 2.0).abs() < 1e-5, "{m:?}");
+    }
+
+    /// A half sine leaves the ground moving at 2 A/w, however long a silence follows.
+    #[test]
+    fn a_half_sine_ends_at_its_peak_velocity() {
+        let accel = (0..=1000).map(|i| (2.0 * PI * f64::from(i.min(500)) / 1000.0).sin()).collect();
+        let velocity = Record::new("half-sine", 1e-3, accel).unwrap().velocity_from_rest();
+        assert_eq!((velocity.len(), velocity[0]), (1001, 0.0));
+        assert!((velocity[1000] - 1.0 / PI).abs() < 1e-5, "{}", velocity[1000]);
     }
 
     /// A constant acceleration: the Arias intensity grows evenly, 5 to 95 % take 0.9 of the record;

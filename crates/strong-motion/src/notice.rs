@@ -82,7 +82,8 @@ impl fmt::Display for Notice {
             ),
             Self::Offset { file, component, share } => write!(
                 f,
-                "{file}: {} has an offset of {:.0} % of its peak; --baseline removes it",
+                "{file}: {} has an offset of {:.0} % of its peak; --baseline removes it, unless \
+                 a pulse is meant that leaves the ground moving",
                 who(component),
                 share * 100.0
             ),

@@ -4,6 +4,7 @@ use std::{borrow::Cow, f64::consts::FRAC_PI_2, ops::Range, sync::Arc};
 
 use super::{
     SweepError,
+    motion::SweepMotion,
     plan::{Cell, Plan, Subject},
     row::{CellAnswer, CellOutcome, HistoryRow},
     springs::SpringsTable,
@@ -67,9 +68,14 @@ struct UnscaledGround {
 impl UnscaledGround {
     fn new(plan: &Plan, cell: Cell) -> Result<Self, SweepError> {
         let Subject { p, alpha, .. } = plan.subjects[cell.subject];
-        let record = plan.motions[cell.motion].record(&plan.making, (p, alpha))?;
-        let measures = record.measures();
-        let (pga, pgv) = (measures.pga.value.abs(), measures.pgv.value.abs());
+        let motion = &plan.motions[cell.motion];
+        let record = motion.record(&plan.making, (p, alpha))?;
+        let velocity = match motion {
+            SweepMotion::Pulse { .. } => record.velocity_from_rest(),
+            _ => record.velocity(),
+        };
+        let pgv = velocity.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+        let pga = record.pga();
         if pga == 0.0 {
             return Err(SweepError::Still { record: record.name });
         }
