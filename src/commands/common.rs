@@ -35,9 +35,9 @@ pub struct RecordOptions {
     /// Subtract the mean of the samples
     #[arg(long)]
     pub baseline: bool,
-    /// Vertical component: auto, that of the record's file; or the file of one with the same times
-    /// [default: none]
-    #[arg(long, value_name = "FILE|auto")]
+    /// Vertical component: auto, that of the record's file; none; or the file of one with the same
+    /// times [default: the case's or the parameters'; none with --record]
+    #[arg(long, value_name = "FILE|auto|none")]
     pub vertical: Option<VerticalFrom>,
     /// Factor on the record's acceleration, in place of the case's or the parameters' [default:
     /// theirs; 1 with --record]

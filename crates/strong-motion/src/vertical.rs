@@ -17,6 +17,8 @@ use crate::GRAVITY;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(from = "PathBuf", into = "PathBuf")]
 pub enum VerticalFrom {
+    /// Nowhere: the motion has none.
+    None,
     /// The record's own file.
     Auto,
     /// This file.
@@ -25,13 +27,18 @@ pub enum VerticalFrom {
 
 impl From<PathBuf> for VerticalFrom {
     fn from(path: PathBuf) -> Self {
-        if path.as_os_str() == "auto" { Self::Auto } else { Self::File(path) }
+        match path.as_os_str().to_str() {
+            Some("none") => Self::None,
+            Some("auto") => Self::Auto,
+            _ => Self::File(path),
+        }
     }
 }
 
 impl From<VerticalFrom> for PathBuf {
     fn from(from: VerticalFrom) -> Self {
         match from {
+            VerticalFrom::None => "none".into(),
             VerticalFrom::Auto => "auto".into(),
             VerticalFrom::File(path) => path,
         }
@@ -51,8 +58,8 @@ impl VerticalFrom {
     #[must_use]
     pub fn within(self, folder: &Path) -> Self {
         match self {
-            Self::Auto => Self::Auto,
             Self::File(path) => Self::File(folder.join(path)),
+            other => other,
         }
     }
 }
@@ -143,7 +150,7 @@ impl Recording {
         options: &ReadOptions,
     ) -> Result<Option<(Record, usize)>, RecordError> {
         let vertical = match &options.vertical {
-            None => return Ok(None),
+            None | Some(VerticalFrom::None) => return Ok(None),
             Some(VerticalFrom::Auto) => {
                 let which = self.only_vertical()?;
                 if which == self.taken {
