@@ -120,12 +120,10 @@ fn rigid(
     stepping: Stepping,
 ) -> Result<ExportedDeck, CommandError> {
     let (parameters, record, line) = with_record(parameters, &o.parameters, &o.record)?;
+    let until = predictable_to(&o.record, &parameters, &record);
     let (text, line) = match stepping {
-        Stepping::Events => (deck_of(&parameters, &record, o.format, o.accuracy)?, line),
-        stepping => {
-            let until = predictable_to(&o.record, &parameters, &record);
-            told(stepped_deck(&parameters, &record, o.format, stepping, until)?, line)
-        }
+        Stepping::Events => (deck_of(&parameters, &record, o.format, o.accuracy, until)?, line),
+        stepping => told(stepped_deck(&parameters, &record, o.format, stepping, until)?, line),
     };
     Ok(ExportedDeck { text, record, line })
 }

@@ -1,6 +1,6 @@
 //! Over how much of a record a deck is judged by `tune verify`, said before anyone opens OpenSees.
 
-use super::FALLEN;
+use super::samples_to_fall;
 use frames::answer::{Compared, ComparedEnd};
 use parameters::{
     Parameters,
@@ -30,11 +30,7 @@ impl DeckExpectation {
         until: Option<f64>,
     ) -> Self {
         let until = foretold_rigid(parameters, record, [motion, changed], until);
-        let fallen = motion
-            .theta
-            .iter()
-            .position(|theta| theta.abs() >= FALLEN)
-            .map_or(motion.len(), |i| i + 1);
+        let fallen = samples_to_fall(&motion.theta);
         match until {
             Some(Foretold { samples, end }) if samples < fallen => {
                 let end = match end {

@@ -126,6 +126,11 @@ impl std::str::FromStr for DeckFormat {
 /// Rotation at which a body has fallen over (rad): a deck's history ends there.
 const FALLEN: f64 = 1.0;
 
+/// Samples of a rotation (rad) up to the one at which a body has fallen over; all if it has not.
+pub fn samples_to_fall(theta: &[f64]) -> usize {
+    theta.iter().position(|theta| theta.abs() >= FALLEN).map_or(theta.len(), |i| i + 1)
+}
+
 /// What the deck must find when it runs: taken from our own history, checked by the deck itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Expected {
@@ -152,6 +157,20 @@ impl Expected {
         Self::within(history, width_sensitivity, history.motion.len())
     }
 
+    /// The same, compared up to when the motion can be predicted, `until` (s), if not to its end;
+    /// dt in s.
+    pub fn foretold(
+        history: &History,
+        width_sensitivity: f64,
+        dt: f64,
+        until: Option<f64>,
+    ) -> Self {
+        let samples = history.motion.len();
+        let compared = samples_to(until, dt, samples);
+        let History { motion, initial_z, .. } = history;
+        Self::of_motion(motion, [samples, compared], *initial_z, width_sensitivity)
+    }
+
     /// The same of so many of its samples. It ends where the body has fallen over: another
     /// program's would fall through the ground next, a little sooner or later than ours.
     pub(crate) fn within(history: &History, width_sensitivity: f64, samples: usize) -> Self {
@@ -165,12 +184,7 @@ impl Expected {
         settled: f64,
         width_sensitivity: f64,
     ) -> Self {
-        let fallen = motion
-            .theta
-            .iter()
-            .position(|theta| theta.abs() >= FALLEN)
-            .map_or(motion.len(), |i| i + 1);
-        let samples = samples.min(fallen);
+        let samples = samples.min(samples_to_fall(&motion.theta));
         let compared = compared.min(samples);
         let range = |x: &[f64]| {
             x[..compared]
@@ -268,15 +282,17 @@ pub fn deck(
     record: &Record,
     format: DeckFormat,
 ) -> Result<String, ExportError> {
-    deck_of(parameters, record, format, ACCURACY)
+    deck_of(parameters, record, format, ACCURACY, None)
 }
 
-/// The same; an OpenSees deck's steps for this accuracy of its history, a normalised error.
+/// The same; an OpenSees deck's steps for this accuracy of its history, a normalised error. It
+/// compares its history up to when the motion can be predicted, `until` (s), if not to its end.
 pub fn deck_of(
     parameters: &Parameters,
     record: &Record,
     format: DeckFormat,
     accuracy: f64,
+    until: Option<f64>,
 ) -> Result<String, ExportError> {
     let parameters = &Parameters {
         structure: with_inertia(&parameters.structure, &parameters.members()),
@@ -284,12 +300,8 @@ pub fn deck_of(
     };
     let history = simulate(parameters, record);
     let width_sensitivity = width_sensitivity(&history.motion, parameters, record);
-    export(
-        parameters,
-        record,
-        &Expected::new(&history, width_sensitivity).with_accuracy(accuracy),
-        format,
-    )
+    let expected = Expected::foretold(&history, width_sensitivity, record.dt, until);
+    export(parameters, record, &expected.with_accuracy(accuracy), format)
 }
 
 /// The text of a deck: the model of `parameters` on `record` for another program.

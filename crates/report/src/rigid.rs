@@ -9,7 +9,7 @@ mod taken;
 
 use super::{
     AccuracyReport, Assumed, FiledParameters, ProgramReport, Run, Section, Taken, changes, doubts,
-    filed, judged, predictable_to,
+    filed, judged,
     program::with_verdict,
     reference::{self, HousnerReport},
     stiffness_tradeoff::TradeoffPoint,
@@ -47,6 +47,10 @@ pub struct RigidRun {
     pub report: HousnerReport,
     /// On the springs for a program with fixed time steps, as that would find it.
     pub of_steps: Option<FixedStepHistory>,
+    /// What the steps of its deck tell of how far its motion can be foretold.
+    of_deck: Option<Finding>,
+    /// Up to when it can (s), if not to its end.
+    until: Option<f64>,
     /// What `parameters.json` holds, but for the record: where that is to be found depends on the
     /// folder.
     pub parameters: Parameters,
@@ -86,28 +90,26 @@ impl RigidRun {
         let kind = case.structure.kind;
         parameters.peaks = Some(peaks(kind, &job.body, job.record.dt, &both));
         let of_steps = parameters.program.as_ref();
-        let compared = (&both, job.record.dt);
         let of_steps = of_steps.and_then(|_| stepped_history(&parameters, &job.record).ok());
-        let on_record = of_steps.as_ref().and_then(|history| {
-            program::on_record(&parameters, history, compared, report.holds_to_s)
-        });
+        let softer = softer(&case, &job, &job.record, &both);
+        let (of_deck, until) = (None, None);
+        let mut run = Self { case, job, front, both, report, of_steps, of_deck, until, parameters };
+        (run.of_deck, run.until) = run.foretold();
+        let Self { case, job, both, until, of_steps, parameters, .. } = &mut run;
+        let dt = job.record.dt;
+        let on_record = of_steps
+            .as_ref()
+            .and_then(|history| program::on_record(parameters, history, (both, dt), *until));
         if let Some(row) = &mut parameters.program {
             row.on_record = on_record;
         }
-        let (softer, until) = (softer(&case, &job, &job.record, &both), report.holds_to_s);
-        parameters.design_forces =
-            Some(design_forces(kind, &job.body, &job.record, &both, softer.as_ref(), until));
-        let mut run = Self { case, job, front, both, report, of_steps, parameters };
-        let (findings, asked) = (run.findings(), run.case.program.is_some());
-        let row = &mut run.parameters.program;
-        run.parameters.findings = filed(with_verdict(findings, row.as_mut(), asked));
-        let until = predictable_to(&run.parameters.findings);
-        run.parameters.design_forces =
-            run.parameters.design_forces.map(|forces| forces.foretold_to(until));
-        if let Some(until) = until {
-            let part = peaks_to(Some(until), kind, &run.job.body, run.job.record.dt, &run.both);
-            run.parameters.peaks = run.parameters.peaks.map(|peaks| peaks.foretold(until, &part));
-        }
+        let forces = design_forces(kind, &job.body, &job.record, both, softer.as_ref(), *until);
+        parameters.design_forces = Some(forces);
+        let asked = case.program.is_some();
+        let findings = run.findings();
+        let row = run.parameters.program.as_mut();
+        run.parameters.findings = filed(with_verdict(findings, row, asked));
+        run.foretell(kind);
         run
     }
 
@@ -167,11 +169,37 @@ impl RigidRun {
         all.extend(program::findings(&self.case, parameters));
         all.extend(parameters.design_forces.iter().flat_map(|forces| forces.withheld()));
         all.extend(parameters.design_forces.iter().filter_map(|forces| forces.at_rest()));
-        all.extend(self.report.findings());
+        // where friction is given, feet slide
+        let holds = self.case.members.friction.is_none();
+        let sliding = |finding: &Finding| matches!(finding, Finding::Sliding { .. });
+        all.extend(self.report.findings().into_iter().filter(|f| holds || !sliding(f)));
         all.extend(reference::histories(&self.both));
-        let until = all.iter().filter_map(Finding::predictable_to).reduce(f64::min);
-        all.extend(judged::rigid(&self.case.structure, parameters, &self.job.record, until));
+        all.extend(self.of_deck.clone());
         all
+    }
+
+    /// Say of peaks and forces whether they can be foretold.
+    fn foretell(&mut self, kind: Kind) {
+        let Self { job, both, until, parameters, .. } = self;
+        parameters.design_forces =
+            parameters.design_forces.map(|forces| forces.foretold_to(*until));
+        if let Some(until) = *until {
+            let part = peaks_to(Some(until), kind, &job.body, job.record.dt, both);
+            parameters.peaks = parameters.peaks.map(|peaks| peaks.foretold(until, &part));
+        }
+    }
+
+    /// What the steps of its deck tell of how far its motion can be foretold; up to when that is
+    /// (s), if not to its end.
+    fn foretold(&self) -> (Option<Finding>, Option<f64>) {
+        let Self { case, job, report, parameters, .. } = self;
+        let of = |finding: &Finding| finding.predictable_to();
+        let verdict = parameters.verdict.as_ref();
+        let conditioned = verdict.and_then(|v| reference::ill_conditioned(report, v, false));
+        let until = report.findings().iter().chain(&conditioned).filter_map(of).reduce(f64::min);
+        let judged = judged::rigid(&case.structure, parameters, &job.record, until);
+        let until = judged.iter().filter_map(of).chain(until).reduce(f64::min);
+        (judged, until)
     }
 
     /// A vertical component of some size that is left out: what it would change.

@@ -63,8 +63,8 @@ pub struct Changes {
     pub restitution: [f64; 2],
     /// Whether a changed body overturns and the unchanged one does not, or the other way round.
     pub overturning: bool,
-    /// Up to when no change of 0.1 % moves a history by a twentieth of its largest displacement, or
-    /// of that at 0.02 alpha if it is smaller (s); none: to its end.
+    /// Up to when no change of 0.1 % moves a history by a twentieth of its largest displacement so
+    /// far, or of that at 0.02 alpha if it is smaller (s); none: to its end.
     pub holds_to_s: Option<f64>,
 }
 
@@ -137,7 +137,7 @@ fn moved(changed: &[f64], u: &[f64]) -> f64 {
     Some(nrmse(changed, u)).filter(|x| x.is_finite()).unwrap_or(1.0)
 }
 
-/// Share of the largest displacement by which 0.1 % moves a history that holds.
+/// Share of the largest displacement so far by which 0.1 % moves a history that holds.
 const MOVED_BY_PEAK: f64 = 0.05;
 /// Of a history that hardly lifts: rotation over alpha whose displacement counts as the largest.
 const LEAST_PEAK: f64 = 0.02;
@@ -170,13 +170,13 @@ pub fn changes(body: &Body<f64>, dt: f64, accel: &[f64], options: &RockingOption
         let samples = samples_until(until, dt).min(u.len());
         moved(&displacements[i], &u[..samples])
     };
-    let least = body.u(LEAST_PEAK * body.alpha());
-    let most = MOVED_BY_PEAK * u.iter().fold(least, |most: f64, u| most.max(u.abs()));
-    let parts = |i: &usize| {
-        let apart = |other: &Vec<f64>| other.get(*i).is_none_or(|x| (x - u[*i]).abs() > most);
+    let mut largest = body.u(LEAST_PEAK * body.alpha());
+    let first = (0..u.len()).find(|&i| {
+        largest = largest.max(u[i].abs());
+        let most = MOVED_BY_PEAK * largest;
+        let apart = |other: &Vec<f64>| other.get(i).is_none_or(|x| (x - u[i]).abs() > most);
         displacements[1..=6].iter().any(apart)
-    };
-    let first = (0..u.len()).find(parts);
+    });
     let overturns =
         |rocking: &Rocking<f64>| matches!(rocking.outcome, RockingOutcome::Overturned { .. });
     // history 1 + 6 k + 3 j + what: size k, sign j

@@ -179,8 +179,8 @@ fn run_decks(parameters: &Parameters, rigid: &RigidRun) -> Result<RunTexts, Fold
     let history =
         own.as_ref().unwrap_or_else(|| both.with.as_ref().map_or(&both.fem, |with| &with.history));
     let width_sensitivity = width_sensitivity(&history.motion, &parameters, record);
-    let expected = Expected::new(history, width_sensitivity);
     let until = predictable_to(&rigid.parameters.findings);
+    let expected = Expected::foretold(history, width_sensitivity, record.dt, until);
     let stepped = |format: DeckFormat| match of_steps {
         Some(history) => decks::even_deck(&parameters, record, format, history, until),
         None => Err(ExportError::NoProgram),

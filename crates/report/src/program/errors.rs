@@ -75,6 +75,11 @@ pub(super) fn errors<U>(
         format!("this record: gives up at {} s, {then}; ", significant(s, 3))
     });
     let top = top.filter(|_| ends.is_empty());
+    let falls = row.on_record.and_then(|on| on.falls_s).map_or(nothing(), |s| {
+        let beyond = until.is_some_and(|until| until <= s);
+        let doubt = if beyond { ", after what can be predicted" } else { "" };
+        format!("it overturns in these steps at {} s{doubt}; ", significant(s, 3))
+    });
     let fewest = words == ErrorWords::Fewest;
     let here = top.map_or(nothing(), |top| here(top, (sensitive, until), fewest));
     if fewest {
@@ -87,7 +92,7 @@ pub(super) fn errors<U>(
             Some(_) => format!("{peaks} {median} (median), {ninety} (90 %){history}"),
             None => format!("most {name} are lost"),
         };
-        return format!("{ends}{fails}{here}{told}");
+        return format!("{ends}{fails}{here}{falls}{told}");
     }
     // how many there are is said with those that fail
     let told = lost > 0 && suites.len() == 1;
@@ -96,7 +101,7 @@ pub(super) fn errors<U>(
         Some(_) => format!("{peaks} within {median} (median), {ninety} (90 %){on}{history}"),
         None => format!("most {name} are lost"),
     };
-    format!("{ends}{fails}{here}{within}")
+    format!("{ends}{fails}{here}{falls}{within}")
 }
 
 /// What the largest displacement on the record errs by, up to when it can be predicted (s).

@@ -2,7 +2,7 @@
 
 use crate::{displacements::LEAST_DRIFT, program::lost};
 use cases::{Case, Yardstick};
-use decks::samples_to;
+use decks::{samples_to, samples_to_fall};
 use fixed_steps::{
     FixedStepHistory, FixedStepOutcome, FixedStepProgram, GaveUp, expected::step_for,
 };
@@ -56,7 +56,11 @@ pub(super) fn on_record(
     };
     let [gives_up, falls_s] = match &history.outcome {
         FixedStepOutcome::GaveUp(GaveUp { time, .. }) => [Some(*time), None],
-        FixedStepOutcome::Fallen { time } => [None, Some(*time)],
+        // where its model's history ends
+        FixedStepOutcome::Fallen { time } => {
+            let fallen = samples_to_fall(&history.motion.theta) - 1;
+            [None, Some((fallen as f64 * dt).min(*time))]
+        }
         FixedStepOutcome::Finished => [None; 2],
     };
     let later = |time: Option<f64>| time.is_none_or(|time| until.is_some_and(|until| until < time));
