@@ -221,8 +221,9 @@ fn refusal(result: &Verification) -> String {
     } else if own > LIMIT {
         format!(
             "verify: OpenSees is off by {error:.1e}, and by {own:.1e} from itself in steps a \
-                quarter as long: on these springs a lifting foot chatters, which no program with \
-                steps follows; take springs as tune run finds them, or ask for more with --accuracy"
+                quarter as long: on these springs a lifting foot chatters, or this motion is too \
+                sensitive, which no program with steps follows; take springs as tune run finds \
+                them, or a motion that lifts the structure more"
         )
     } else {
         format!(

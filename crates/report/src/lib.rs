@@ -234,6 +234,8 @@ pub struct Run {
 
 /// The reference of rigid bodies.
 pub(crate) const HOUSNER: &str = "Housner";
+/// What an elastic structure lifts at, in tables.
+pub(crate) const STEADY: &str = "lifts at a steady ground acceleration of";
 
 /// Findings for a run: answers first, then what weighs most.
 pub fn filed(findings: impl IntoIterator<Item = Finding>) -> Vec<FiledFinding> {

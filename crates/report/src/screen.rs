@@ -7,7 +7,7 @@ mod lines;
 mod warnings;
 
 use super::{
-    Run, Section, Table, Unit,
+    Run, STEADY, Section, Table, Unit,
     displacements::{DIFFERENCE, FRICTION, LARGEST, PART},
     peak_table,
 };
@@ -259,8 +259,10 @@ fn taken(run: &Run, written: &Written, crowding: Crowding, lines: &mut Vec<Strin
     };
     let first = fact("first lifts").map_or(String::new(), |time| format!(", at {time}"));
     let vertical = if run.taken.vertical { " (1 + vertical in g)" } else { "" };
+    // an elastic structure that is shaken may lift at less
+    let at = if fact(STEADY).is_some() { "at a steady" } else { "beyond" };
     let lifts = fact("lifts")
-        .map_or(String::new(), |value| format!("; lifts beyond {value}{vertical}{first}"));
+        .map_or(String::new(), |value| format!("; lifts {at} {value}{vertical}{first}"));
     at_most(two, lines, "", &format!("{}{lifts}", run.taken.structure));
     if let Some(record) = &run.taken.short_record {
         let name = if record.chars().count() > WIDTH { "record " } else { "" };

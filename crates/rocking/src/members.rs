@@ -94,7 +94,7 @@ pub enum MembersError {
     Absurd { name: &'static str, value: f64, times: f64, unit: &'static str },
     #[error(
         "friction.coefficient is given together with damper or tendon; slipping is followed for a \
-         rigid body only, leave one out"
+         body without them, leave one out"
     )]
     Slipping,
     #[error(

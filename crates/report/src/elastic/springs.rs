@@ -1,7 +1,7 @@
 //! What is said of springs alone: of an elastic structure without a record.
 
 use super::super::{
-    AccuracyOn, AccuracyReport, FiledParameters, ProgramReport, Run, Taken, Unit,
+    AccuracyOn, AccuracyReport, FiledParameters, ProgramReport, Run, STEADY, Taken, Unit,
     accuracy::THIS_RECORD, doubts, filed,
 };
 use super::title;
@@ -185,7 +185,7 @@ fn taken(parameters: &ElasticParameters) -> Taken {
     );
     let lifts = parameters.assembled().ok().and_then(|assembled| assembled.uplift_g());
     if let Some(lifts) = lifts {
-        fact("lifts at a steady ground acceleration of", format!("{} g", significant(lifts, 4)));
+        fact(STEADY, format!("{} g", significant(lifts, 4)));
     }
     // a tendon holds it down, too
     if parameters.tendon.is_none() {

@@ -143,15 +143,19 @@ impl Finding {
                     (reference - share_of_overturning).abs()
                         > SHARES_DIFFER * share_of_overturning.max(*reference)
                 };
-                let other = reference_share.filter(differs).map_or(String::new(), |reference| {
-                    format!(" on springs, {} without", percent(reference))
-                });
-                let largest = percent(*share_of_overturning);
+                let found = percent(*share_of_overturning);
+                let largest = match reference_share.filter(differs) {
+                    Some(reference) => format!(
+                        "{} of overturning without springs, {found} on springs",
+                        percent(reference)
+                    ),
+                    None => format!("{found} of overturning"),
+                };
                 if *share_of_overturning < HARDLY_ROCKS {
-                    return format!("{HARDLY}: largest rotation {largest} of overturning");
+                    return format!("{HARDLY}: largest rotation {found} of overturning");
                 }
                 format!(
-                    "it rocks and stands{}: largest rotation {}{} of overturning{other}{}",
+                    "it rocks and stands{}: largest rotation {}{}{}",
                     if *if_feet_hold { ", if its feet hold" } else { "" },
                     if *of_columns { "of columns " } else { "" },
                     largest,
