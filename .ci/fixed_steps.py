@@ -161,6 +161,8 @@ def in_opensees(case):
     for node, mass in masses + [(node, case["horizontal"][2]) for node in absorbers]:
         ops.load(node, -mass, 0.0, 0.0)
     model["analysis"](*INTEGRATORS[case["integrator"]])
+    if "unbalance" in case:
+        ops.test("NormUnbalance", case["unbalance"], 30, 0)
 
     def row():
         u, v, theta = read()
@@ -249,7 +251,12 @@ def units(emulator, kind, case, body, integrator, step):
         mass = body[2] if "body" in case else case["pier"]["footing"][0]
         return plain(mass)
     recipe = emulator.ask({"recipe": integrator, "step": step, "body": body})
-    return {key: recipe[key] for key in ("vertical", "horizontal")}
+    found = {key: recipe[key] for key in ("vertical", "horizontal")}
+    if kind == "recipe, unbalance":
+        # as crates/fixed-steps/src/program.rs
+        height, half_width, mass = body[:3]
+        found["unbalance"] = math.sqrt(2) * half_width / height * mass * GRAVITY
+    return found
 
 
 def widened(case):
@@ -388,8 +395,13 @@ def main():
         motions = emulator.ask({"body": body, "motions": asked.motions, "seed": asked.seed})
         damped = name == "damped pier"
         for kind, step, integrator in (
-            (k, s, i) for k in ("recipe", "plain") for s in asked.steps for i in INTEGRATORS
+            (k, s, i) for k in ("recipe", "plain", "recipe, unbalance") for s in asked.steps for i in INTEGRATORS
         ):
+            # elsewhere steps end while a foot's force is missing, and what they end with is the iteration's path
+            if kind == "recipe, unbalance" and (
+                name != "frame 61 m" or step > 1e-3 or not integrator.startswith("hht:-0.3")
+            ):
+                continue
             if damped and (integrator in ("newmark:0.5:0.25", "hht:0") or step > 1e-3):
                 continue
             looser = DAMPED * step if damped else 1.0

@@ -5,20 +5,22 @@
 //! cargo bench --bench fixed_steps                 # error over the step, and figures/fixed_steps.png
 //! cargo bench --bench fixed_steps -- search       # a run's beside the best of 500 springs drawn at random
 //! cargo bench --bench fixed_steps -- stance       # error and lost histories over the stance
+//! cargo bench --bench fixed_steps -- tolerance    # the same over the tolerance of an unbalance
 //! cargo bench --bench fixed_steps -- events       # with and without event-to-event stepping
 //! ```
 //!
 //! Motions are of seed 31; the search chooses on those of seed 77. No spring of the program was
 //! chosen on either. The stances that a run tries (`springs::fixed_steps::STANCES`) were chosen by
-//! what the third command prints, on motions of seeds 5 and 6.
+//! what the third command prints, the tolerance of an unbalance (`fixed_steps::program`) by what
+//! the fourth does, on motions of seeds 5 and 6.
 
 use std::path::Path;
 
 use dynamics::effort::Effort;
 use figures::precision::{self, PrecisionFigure, ToolSeries};
 use fixed_steps::{
-    EventStepping, FixedStepBody, FixedStepDesign, FixedStepProgram, FixedStepSprings, Integrator,
-    ProgramName, StepSettings,
+    ConvergenceTest, EventStepping, FixedStepBody, FixedStepDesign, FixedStepProgram,
+    FixedStepSprings, Integrator, ProgramName, StepSettings,
     expected::FLOOR,
     measured::{ErrorsOverMotions, WellConditioned},
     recipe::UnitNumbers,
@@ -26,7 +28,10 @@ use fixed_steps::{
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
-use rocking::structure::{Body, Structure};
+use rocking::{
+    scalar::GRAVITY,
+    structure::{Body, Structure},
+};
 use springs::{
     fixed_steps::{LONGEST, ProgramSprings, design},
     suite::{self, Suites},
@@ -46,13 +51,15 @@ const STEPS: [f64; 6] = [1e-2, 4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4];
 const SEARCH_STEP: f64 = 1e-3;
 const EVALUATIONS: usize = 500;
 
-/// Stances of the third command, the seeds of its motions, how many motions, and its steps (s).
+/// Stances of the third command, tolerances of the fourth (over W tan(alpha)); the seeds of
+/// their motions, how many motions, and their steps (s).
 const STANCES: [f64; 8] = [4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 12.0];
-const STANCE_SEEDS: [u64; 2] = [5, 6];
-const STANCE_MOTIONS: usize = 64;
-const STANCE_STEPS: [f64; 3] = [1e-2, 1e-3, 2.5e-4];
+const TOLERANCES: [f64; 6] = [0.5, 0.7, 1.0, 1.41, 2.0, 3.0];
+const CHOSEN_ON_SEEDS: [u64; 2] = [5, 6];
+const CHOSEN_ON_MOTIONS: usize = 64;
+const CHOSEN_ON_STEPS: [f64; 3] = [1e-2, 1e-3, 2.5e-4];
 
-/// Motions of a row of the fourth command, its steps (s), and its programs: those of CSI test the
+/// Motions of a row of the fifth command, its steps (s), and its programs: those of CSI test the
 /// unbalance, scripts the change of place.
 const EVENT_MOTIONS: usize = 64;
 const EVENT_STEPS: [f64; 2] = [1e-2, 1e-3];
@@ -108,10 +115,17 @@ fn errors_of(
     springs: &FixedStepSprings,
     events: Option<EventStepping>,
 ) -> ErrorsOverMotions {
-    let chains = springs.chains();
-    let settings = program.settings(chains.vertical.k1, springs.body.mass);
-    let settings = StepSettings { events, ..settings };
-    let model = FixedStepBody::new(&springs.body, &chains);
+    let settings = program.settings(springs.body.mass, springs.body.alpha());
+    errors_in(of, springs, StepSettings { events, ..settings })
+}
+
+/// The same in steps that are set so.
+fn errors_in(
+    of: &WellConditioned,
+    springs: &FixedStepSprings,
+    settings: StepSettings,
+) -> ErrorsOverMotions {
+    let model = FixedStepBody::new(&springs.body, &springs.chains());
     let all = of.motions.par_iter().map(|motion| motion.errors(&model, settings));
     ErrorsOverMotions::of(all.collect::<Vec<_>>())
 }
@@ -226,40 +240,70 @@ fn search() -> Result<(), BenchError> {
     Ok(())
 }
 
-/// Over bodies and steps: geometric mean and largest of the medians over p dt, histories lost.
-fn stance() -> Result<(), BenchError> {
+/// Over seven bodies and three steps, for every number: geometric mean and largest of the medians
+/// over p dt, histories lost.
+fn over_bodies(
+    name: &str,
+    integrator: Integrator,
+    numbers: &[f64],
+    errors: impl Fn(f64, &WellConditioned, f64) -> Option<ErrorsOverMotions>,
+) -> Result<(), BenchError> {
     let more = [
         ("A-frame 10 m high, feet 3.6 m apart", Structure::a_frame(10.0, 3.6, 2e5)?.body()),
         ("A-frame 30 m high, feet 3 m apart", Structure::a_frame(30.0, 3.0, 2e5)?.body()),
         ("block 2.6 m high, 1.1 m wide", Structure::block(2.6, 1.1, 2e3)?.body()),
         ("block 1 m high, 0.2 m wide", Structure::block(1.0, 0.2, 2e3)?.body()),
     ];
-    let bodies: Vec<Body<f64>> = bodies()?.into_iter().chain(more).map(|(_, body)| body).collect();
+    let mut suites = Vec::new();
+    for (_, body) in bodies()?.into_iter().chain(more) {
+        let body = FixedStepSprings::of(&body, 1e-3, integrator)?.body;
+        let of = |seed| WellConditioned::of_seed(&body, seed, CHOSEN_ON_MOTIONS, 960);
+        suites.extend(CHOSEN_ON_SEEDS.map(of));
+    }
+    for &number in numbers {
+        let (mut medians, mut lost, mut count) = (Vec::new(), 0, 0);
+        for (of, step) in suites.iter().flat_map(|of| CHOSEN_ON_STEPS.map(|step| (of, step))) {
+            let p_dt = of.body.p_squared().sqrt() * step;
+            let found = if p_dt < LONGEST { errors(number, of, step) } else { None };
+            if let Some(errors) = found {
+                medians.push(errors.quantile(0.5) / p_dt);
+                lost += errors.lost();
+                count += errors.count();
+            }
+        }
+        let mean = medians.iter().map(|m| m.ln()).sum::<f64>() / medians.len() as f64;
+        let most = medians.iter().copied().fold(0.0, f64::max);
+        println!("{name}, {number}: {:.1}, {most:.1}; {lost} of {count}", mean.exp());
+    }
+    Ok(())
+}
+
+fn stance() -> Result<(), BenchError> {
     println!("stance: geometric mean, largest median NRMSE over p dt; histories lost");
     for (name, integrator) in &INTEGRATORS[..3] {
-        let mut suites = Vec::new();
-        for body in &bodies {
-            let body = FixedStepSprings::of(body, 1e-3, *integrator)?.body;
-            let of = |seed| WellConditioned::of_seed(&body, seed, STANCE_MOTIONS, 960);
-            suites.extend(STANCE_SEEDS.map(of));
-        }
-        for stance in STANCES {
-            let (mut medians, mut lost, mut count) = (Vec::new(), 0, 0);
-            for (of, step) in suites.iter().flat_map(|of| STANCE_STEPS.map(|step| (of, step))) {
-                let p_dt = of.body.p_squared().sqrt() * step;
-                let springs = FixedStepDesign { stance, ..design(&of.body, step) };
-                let found =
-                    if p_dt < LONGEST { errors(of, step, *integrator, &springs) } else { None };
-                if let Some(errors) = found {
-                    medians.push(errors.quantile(0.5) / p_dt);
-                    lost += errors.lost();
-                    count += errors.count();
-                }
-            }
-            let mean = medians.iter().map(|m| m.ln()).sum::<f64>() / medians.len() as f64;
-            let most = medians.iter().copied().fold(0.0, f64::max);
-            println!("{name}, {stance}: {:.1}, {most:.1}; {lost} of {count}", mean.exp());
-        }
+        over_bodies(name, *integrator, &STANCES, |stance, of, step| {
+            let springs = FixedStepDesign { stance, ..design(&of.body, step) };
+            errors(of, step, *integrator, &springs)
+        })?;
+    }
+    Ok(())
+}
+
+fn tolerance() -> Result<(), BenchError> {
+    println!("unbalance over W tan(alpha): geometric mean, largest median over p dt; lost");
+    let integrator = Integrator::HHT_MOST;
+    for stance in [12.0, 7.0] {
+        let name = format!("SAP2000, HHT -1/3, stance {stance}");
+        over_bodies(&name, integrator, &TOLERANCES, |below, of, step| {
+            let numbers = FixedStepDesign { stance, ..design(&of.body, step) };
+            let springs = FixedStepSprings::designed(&of.body, step, integrator, &numbers).ok()?;
+            let body = springs.body;
+            let program = FixedStepProgram::of(ProgramName::Sap2000, step);
+            let mut settings = program.settings(body.mass, body.alpha());
+            let below = below * body.mass * GRAVITY * body.alpha().tan();
+            settings.iteration.test = ConvergenceTest::Unbalance(below);
+            Some(errors_in(of, &springs, settings))
+        })?;
     }
     Ok(())
 }
@@ -299,6 +343,7 @@ fn main() -> Result<(), BenchError> {
     match std::env::args().nth(1).as_deref() {
         Some("search") => search(),
         Some("stance") => stance(),
+        Some("tolerance") => tolerance(),
         Some("events") => events(),
         _ => over_steps(),
     }

@@ -4,6 +4,7 @@
 //! ```json
 //! {"body": [height_m, half_width_m, mass_kg, inertia_kgm2], "vertical": [k1, k2, m2, c], "horizontal": [k1, k2, m2, c],
 //!  "integrator": "trbdf2", "step": 0.001, "tolerance": 1e-12, "dt": 0.01, "accel": [0.0, 0.1]}
+//! {"unbalance": 1e4, ... in place of "tolerance"}
 //! {"pier": {"mass": 6e5, "height": 12.0, "width": 4.0, "footing": [1.2e5, 0.75, 1.5], "column": [EA, EI, eta_A, eta_I]}, ...}
 //! {"motions": 4, "seed": 1, "body": [61.0, 6.1, 680100.0, 0.0]}
 //! {"references": 4, "seed": 1, "body": [61.0, 6.1, 680100.0, 680.0]}
@@ -55,6 +56,7 @@ struct Asked {
     integrator: Option<String>,
     step: Option<f64>,
     tolerance: Option<f64>,
+    unbalance: Option<f64>,
     dt: Option<f64>,
     accel: Option<Vec<f64>>,
 }
@@ -151,15 +153,16 @@ fn history<M: FixedStepModel>(
     asked: &Asked,
     shown: impl Fn(&M::Vector) -> [f64; 3],
 ) -> Result<Value, Box<dyn Error>> {
-    let Asked {
-        integrator: Some(integrator), step: Some(step), tolerance: Some(tolerance), ..
-    } = asked
-    else {
-        return Err("give integrator, step and tolerance".into());
+    let Asked { integrator: Some(integrator), step: Some(step), .. } = asked else {
+        return Err("give integrator and step".into());
+    };
+    let test = match (asked.unbalance, asked.tolerance) {
+        (Some(below), _) => ConvergenceTest::Unbalance(below),
+        (None, Some(below)) => ConvergenceTest::Increment(below),
+        _ => return Err("give a tolerance or an unbalance".into()),
     };
     let (dt, accel) = asked.dt.zip(asked.accel.as_deref()).ok_or("give dt and accel")?;
-    let iteration =
-        Iteration { constant: 0, newton: 30, test: ConvergenceTest::Increment(*tolerance) };
+    let iteration = Iteration { constant: 0, newton: 30, test };
     let settings = StepSettings { iteration, ..StepSettings::new(integrator.parse()?, *step) };
     let at_touches = asked.at_touches.unwrap_or(1);
     let settings = settings.with_touches(at_touches);

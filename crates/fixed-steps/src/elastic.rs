@@ -174,6 +174,17 @@ impl FixedStepModel for FixedStepFrame<'_> {
         }
     }
 
+    fn unbalance_norm(&self, places: &Vec<Reach>, unbalance: &Vec<f64>) -> f64 {
+        let mut joints = unbalance[..self.n()].to_vec();
+        let mut squares = 0.0;
+        for ((at, place, _), reach) in self.corners().zip(places) {
+            let [x, z] = [unbalance[at], unbalance[at + 1]];
+            place.push(reach, [x, z], &mut joints);
+            squares += 2.0 * (x * x + z * z);
+        }
+        (squares + joints.iter().map(|f| f * f).sum::<f64>()).sqrt()
+    }
+
     fn factor(
         &self,
         (trial, places): (&Trial<Vec<f64>>, &Vec<Reach>),

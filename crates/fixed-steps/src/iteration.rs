@@ -15,10 +15,9 @@ use crate::{
 pub enum ConvergenceTest {
     /// Euclidean norm of the last change, metres and radians together: OpenSees' `NormDispIncr`.
     Increment(f64),
-    /// Euclidean norm of the unbalance, N and N m together: OpenSees' `NormUnbalance`.
+    /// Euclidean norm of the unbalance of every node, N and N m together
+    /// ([`FixedStepModel::unbalance_norm`]): OpenSees' `NormUnbalance`.
     Unbalance(f64),
-    /// Half the product of the last change and the unbalance it leaves (J): OpenSees' `EnergyIncr`.
-    Energy(f64),
 }
 
 /// How a program iterates.
@@ -129,10 +128,8 @@ impl<M: FixedStepModel> Iterates<M> {
             let norm = |x: &M::Vector| x.as_ref().iter().map(|x| x * x).sum::<f64>().sqrt();
             let (left, below) = match how.test {
                 ConvergenceTest::Increment(below) => (norm(&self.increment), below),
-                ConvergenceTest::Unbalance(below) => (norm(&self.unbalance), below),
-                ConvergenceTest::Energy(below) => {
-                    let pairs = self.increment.as_ref().iter().zip(self.unbalance.as_ref());
-                    (0.5 * pairs.map(|(x, f)| x * f).sum::<f64>().abs(), below)
+                ConvergenceTest::Unbalance(below) => {
+                    (model.unbalance_norm(&self.places, &self.unbalance), below)
                 }
             };
             if left <= below {

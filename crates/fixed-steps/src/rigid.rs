@@ -180,6 +180,18 @@ impl FixedStepModel for FixedStepBody {
     }
 
     #[inline(always)]
+    fn unbalance_norm(&self, places: &[FootPlace; 2], unbalance: &[f64; N]) -> f64 {
+        let mut top = [unbalance[X], unbalance[Z], unbalance[TH]];
+        let mut squares = 0.0;
+        for (i, FootPlace { slope, .. }) in places.iter().enumerate() {
+            let [x, z] = [-unbalance[absorber(i)], -unbalance[absorber(i) + 1]];
+            top = [top[0] - x, top[1] - z, top[2] - x * slope[0] - z * slope[1]];
+            squares += 2.0 * (x * x + z * z);
+        }
+        (squares + top.iter().map(|f| f * f).sum::<f64>()).sqrt()
+    }
+
+    #[inline(always)]
     fn factor(
         &self,
         (trial, places): (&Trial<[f64; N]>, &[FootPlace; 2]),
@@ -285,6 +297,22 @@ mod tests {
         model.meet(&places, &q, &mut feet);
         model.unbalance((&still, &places), &feet, [0.0; 2], &mut out);
         assert!(out.iter().all(|f| f.abs() < 1e-9 * model.body.mass), "{out:?}");
+    }
+
+    /// A foot that lifts drops half the weight: it is missing on the foot's node and on the
+    /// absorber's, wherever the mass is.
+    #[test]
+    fn what_a_foot_drops_is_a_force_on_two_nodes() {
+        let model = model();
+        let (q, mut feet) = model.standing().unwrap();
+        let still = Trial { q, v: [0.0; N], a: [0.0; N] };
+        let (places, mut out) = (model.places(&q), [0.0; N]);
+        model.meet(&places, &q, &mut feet);
+        feet[1].closed = false;
+        model.unbalance((&still, &places), &feet, [0.0; 2], &mut out);
+        let expected = 0.5 * model.body.mass * GRAVITY * 2f64.sqrt();
+        let norm = model.unbalance_norm(&places, &out);
+        assert!((norm / expected - 1.0).abs() < 1e-9, "{norm} {expected}");
     }
 
     /// What a small change of q does to the unbalance is the matrix's answer to it: solve(K dq) =

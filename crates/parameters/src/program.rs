@@ -5,10 +5,11 @@ use serde::{Deserialize, Serialize};
 use super::corner::CornerRow;
 use dynamics::spring::{Chain, ChainRow, Springs};
 use fixed_steps::{
-    FixedStepProgram, Integrator, ProgramName, expected::FLOOR, measured::ErrorsOverMotions,
+    ConvergenceTest, FixedStepProgram, Integrator, Iteration, ProgramName, StepSettings,
+    expected::FLOOR, measured::ErrorsOverMotions,
 };
 use results::{NotToBeUsed, ProgramAdvice, ProgramFault};
-use rocking::structure::Structure;
+use rocking::{scalar::GRAVITY, structure::Structure};
 use springs::{
     elastic::program::ElasticProgramSprings,
     fixed_steps::{LONGEST, ProgramSprings},
@@ -164,24 +165,27 @@ impl ProgramOnRecord {
 }
 
 impl<U> ProgramRow<U> {
-    /// Of a program, the stiffest vertical k1 (N/m) and the mass (kg).
+    /// Of a program, how it steps, and the weight that its test of an unbalance is relative to (N).
     fn of(
         program: &FixedStepProgram,
-        (k1, mass): (f64, f64),
+        settings: &StepSettings,
+        weight: f64,
         units: U,
         expected: ProgramExpected,
     ) -> Self {
-        let tolerance = program.tolerance(k1, mass);
+        let Iteration { newton, test, .. } = settings.iteration;
         Self {
             name: program.name.map(|name| name.key().into()),
             asked: false,
             step_s: program.step,
             integrator: program.integrator.to_string(),
             substeps: program.substeps,
-            newton_iterations: program.settings(k1, mass).iteration.newton,
-            converged: match program.tests_unbalance() {
-                true => ProgramTest::UnbalanceOverWeight(tolerance),
-                false => ProgramTest::IncrementM(tolerance),
+            newton_iterations: newton,
+            converged: match test {
+                ConvergenceTest::Unbalance(below) => {
+                    ProgramTest::UnbalanceOverWeight(below / weight)
+                }
+                ConvergenceTest::Increment(below) => ProgramTest::IncrementM(below),
             },
             units,
             stiffer_for_earthquakes: false,
@@ -207,7 +211,7 @@ impl From<&ProgramSprings> for ProgramRow<FootUnits> {
             synthetic: of.synthetic.as_ref().map(ProgramErrors::from),
             earthquakes: of.earthquakes.as_ref().map(ProgramErrors::from),
         };
-        let row = Self::of(program, (springs.chains().vertical.k1, m1), units, expected);
+        let row = Self::of(program, &of.settings(), m1 * GRAVITY, units, expected);
         Self { stiffer_for_earthquakes: of.stiffer, ..row }
     }
 }
@@ -220,7 +224,6 @@ impl ProgramRow<CornerUnits> {
         places: impl Iterator<Item = f64>,
     ) -> Self {
         let corners = &of.springs.corners;
-        let k1 = corners.iter().map(|corner| corner.vertical.k1).fold(0.0, f64::max);
         let row = |(x_m, springs): (f64, &Springs<Chain>)| CornerRow {
             x_m,
             vertical: (&springs.vertical).into(),
@@ -234,15 +237,15 @@ impl ProgramRow<CornerUnits> {
             synthetic: of.measured.as_ref().map(ProgramErrors::from),
             earthquakes: None,
         };
-        Self::of(&of.program, (k1, mass), units, expected)
+        Self::of(&of.program, &of.settings, mass * GRAVITY, units, expected)
     }
 }
 
 /// Error of the largest displacement above which springs are of no use: in the median of motions,
 /// or on the run's record.
 pub const USELESS: f64 = 0.1;
-/// The same on earthquake-like motions in steps that are not too long: the whole peak.
-const NO_PEAK: f64 = 1.0;
+/// The same on earthquake-like motions in steps that are not too long.
+const NO_PEAK: f64 = 0.3;
 /// A difference of integrators' alpha that is rounding: users write hht:-0.333.
 const SAME_ALPHA: f64 = 1e-3;
 

@@ -35,6 +35,7 @@ use dynamics::{
 };
 use fixed_steps::{
     ExpectedError, FixedStepBody, FixedStepDesign, FixedStepProgram, FixedStepSprings,
+    StepSettings,
     expected::{FLOOR, REBOUND},
     measured::{ErrorsOverMotions, ReferenceHistory},
     recipe::{FixedStepSpringsError, UnitNumbers},
@@ -247,11 +248,16 @@ impl ProgramSprings {
         }
     }
 
+    /// How the program steps on them.
+    pub fn settings(&self) -> StepSettings {
+        self.program.settings(self.springs.body.mass, self.springs.body.alpha())
+    }
+
     /// Errors of the springs in the program; none of no motions.
     fn errors(&self, motions: &[ReferenceHistory]) -> Option<ErrorsOverMotions> {
         let springs = &self.springs;
         let model = FixedStepBody::new(&springs.body, &springs.chains());
-        let settings = self.program.settings(springs.chains().vertical.k1, springs.body.mass);
+        let settings = self.settings();
         let all = parallel::map(motions, |motion| motion.errors(&model, settings));
         (!all.is_empty()).then(|| ErrorsOverMotions::of(all))
     }

@@ -111,8 +111,7 @@ impl ElasticProgramSprings {
 
     fn at(standing: &Standing, k: f64, program: FixedStepProgram, body: &Body<f64>) -> Self {
         let springs = for_step(standing, k, program.step, body);
-        let k1 = springs.corners.iter().map(|corner| corner.vertical.k1).fold(0.0, f64::max);
-        let settings = program.settings(k1, standing.mass);
+        let settings = program.settings(standing.mass, body.alpha());
         let floor = FLOOR * body.p_squared().sqrt() * program.step;
         Self { program, springs, settings, floor, measured: None }
     }
