@@ -136,14 +136,8 @@ pub fn parameters(bytes: &[u8]) {
     );
     assert!(rocking.theta.iter().all(|theta| theta.is_finite()));
     let case = fem::Analysis {
-        body,
-        springs: parameters.chains(),
-        start: fem::Start::Settled,
-        dt: 0.01,
-        accel: &accel,
-        vertical: &[],
-        scale: 1.0,
         control: fem::Control { most_steps: 1000, ..fem::Control::default() },
+        ..fem::Analysis::new(body, parameters.chains(), 0.01, &accel)
     };
     let history = case.simulate();
     let motion = &history.motion;

@@ -3,7 +3,7 @@
 
 use dynamics::compare::Match;
 use dynamics::{
-    fem::{Analysis, Control, History, Start},
+    fem::{Analysis, History},
     spring::{Design, Springs},
 };
 use parameters::Parameters;
@@ -16,9 +16,7 @@ use strong_motion::Record;
 fn simulate(springs: &Springs<Design<f64>>, dt: f64, accel: &[f64]) -> History {
     let body = Structure::paper().body();
     let springs = springs.chains(680.1e3);
-    let control = Control::default();
-    Analysis { body, springs, start: Start::Settled, dt, accel, vertical: &[], scale: 1.0, control }
-        .simulate()
+    Analysis::new(body, springs, dt, accel).simulate()
 }
 
 /// The first 20 s of El Centro beside Housner.

@@ -5,7 +5,7 @@ use dynamics::compare::Match;
 use std::sync::LazyLock;
 
 use cases::Case;
-use dynamics::fem::{self, Control, History, Start};
+use dynamics::fem::{self, History};
 use springs::job::Job;
 
 struct Tuned {
@@ -17,16 +17,12 @@ struct Tuned {
 static TUNED: LazyLock<Tuned> = LazyLock::new(|| {
     let case = Case::paper().unwrap();
     let job = Job::new(&case, &|_, _, _| {}).unwrap();
-    let fem = fem::Analysis {
-        body: job.body,
-        springs: job.springs.chains(job.body.mass),
-        start: Start::Settled,
-        dt: job.record.dt,
-        accel: &job.record.accel,
-        vertical: &[],
-        scale: 1.0,
-        control: Control::default(),
-    }
+    let fem = fem::Analysis::new(
+        job.body,
+        job.springs.chains(job.body.mass),
+        job.record.dt,
+        &job.record.accel,
+    )
     .simulate();
     let rocking = (&job.housner, &job.rocking.impacts[..]);
     let matched = Match::new(&job.body, job.record.dt, rocking, &fem, case.restitution);

@@ -4,7 +4,7 @@ use std::hint::black_box;
 
 use crate::{Point, TimedSeries, least};
 use dynamics::{
-    fem::{Analysis, Control, History, Start},
+    fem::{Analysis, Control, History},
     spring::{Design, Springs},
 };
 use parameters::Parameters;
@@ -74,14 +74,14 @@ impl BenchCase {
     pub fn case(&self, scale: f64, control: Control) -> Analysis<'_> {
         let body = structure().body::<f64>();
         Analysis {
-            body,
-            springs: self.springs.chains(body.mass),
-            start: Start::Settled,
-            dt: self.record.dt,
-            accel: &self.record.accel,
-            vertical: &[],
             scale,
             control,
+            ..Analysis::new(
+                body,
+                self.springs.chains(body.mass),
+                self.record.dt,
+                &self.record.accel,
+            )
         }
     }
 

@@ -153,7 +153,7 @@ fn error_above(landings: &[(f64, f64)], restitution: f64, least: f64) -> Option<
 mod tests {
     use super::*;
     use crate::{
-        fem::{Analysis, Control, Start},
+        fem::{Analysis, Start},
         spring::{Design, Springs},
     };
     use rocking::{
@@ -169,18 +169,7 @@ mod tests {
         let dt = 0.01;
         let accel = vec![share_of_limit * 9.81 * body.half_width / body.height; 1000];
         let rocking = solve(&body, dt, &accel, &RockingOptions::default());
-        let (start, control) = (Start::Settled, Control::default());
-        let history = Analysis {
-            body,
-            springs,
-            start,
-            dt,
-            accel: &accel,
-            vertical: &[],
-            scale: 1.0,
-            control,
-        }
-        .simulate();
+        let history = Analysis::new(body, springs, dt, &accel).simulate();
         let housner = (&rocking.motion(&body), &rocking.impacts[..]);
         (
             body,
@@ -201,18 +190,9 @@ mod tests {
         let rocking = solve(&body, dt, &accel, &options);
         let design = Design::from_kc(0.3, 0.1, 0.75, 2000.0);
         let springs = Springs { vertical: design, horizontal: design }.chains(body.mass);
-        let (start, control) = (Start::Leaning(theta), Control::default());
-        let history = Analysis {
-            body,
-            springs,
-            start,
-            dt,
-            accel: &accel,
-            vertical: &[],
-            scale: 1.0,
-            control,
-        }
-        .simulate();
+        let history =
+            Analysis { start: Start::Leaning(theta), ..Analysis::new(body, springs, dt, &accel) }
+                .simulate();
         let found = Match::new(
             &body,
             dt,

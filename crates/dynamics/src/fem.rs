@@ -118,7 +118,21 @@ impl Finish {
     }
 }
 
-impl Analysis<'_> {
+impl<'a> Analysis<'a> {
+    /// From rest on horizontal motion, as exactly as usual.
+    pub fn new(body: Body<f64>, springs: Springs<Chain>, dt: f64, accel: &'a [f64]) -> Self {
+        Self {
+            body,
+            springs,
+            start: Start::Settled,
+            dt,
+            accel,
+            vertical: &[],
+            scale: 1.0,
+            control: Control::default(),
+        }
+    }
+
     /// Run the case, showing every sample and event to `observer`.
     pub fn observe(&self, observer: &mut dyn Observer) -> Finish {
         self.follow(&self.model(), observer)
@@ -136,7 +150,7 @@ impl Analysis<'_> {
         run.finish(outcome)
     }
 
-    fn run<'a>(&self, model: &'a model::Model) -> run::TimeLoop<'a> {
+    fn run<'m>(&self, model: &'m model::Model) -> run::TimeLoop<'m> {
         let start = match self.start {
             Start::Settled => model.settled(),
             Start::Leaning(theta) => model.leaning(theta),

@@ -70,14 +70,8 @@ pub fn with_members(
     (rocking, motion): (&Rocking<f64>, &Motion),
 ) -> MemberHistory {
     let case = fem::Analysis {
-        body: *body,
-        springs: *springs,
-        start: fem::Start::Settled,
-        dt: record.dt,
-        accel: &record.accel,
         vertical: record.up(),
-        scale: 1.0,
-        control: fem::Control::default(),
+        ..fem::Analysis::new(*body, *springs, record.dt, &record.accel)
     };
     let (history, mut demands) = case.simulate_with(members);
     let matched = Match::new(body, record.dt, (motion, &rocking.impacts), &history, restitution);

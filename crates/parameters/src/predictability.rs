@@ -5,7 +5,7 @@
 //! (`export/model`).
 
 use crate::Parameters;
-use dynamics::fem::{Analysis, Control, History, Start};
+use dynamics::fem::{Analysis, History};
 use rocking::{
     conditioning::Conditioning,
     housner::RockingOptions,
@@ -133,14 +133,13 @@ pub fn predictable_to(parameters: &Parameters, record: &Record) -> Option<f64> {
 /// Our own history of a deck's model; `parameters` with inertia.
 pub fn simulate(parameters: &Parameters, record: &Record) -> History {
     Analysis {
-        body: parameters.structure.body::<f64>(),
-        springs: parameters.chains(),
-        start: Start::Settled,
-        dt: record.dt,
-        accel: &record.accel,
         vertical: record.up(),
-        scale: 1.0,
-        control: Control::default(),
+        ..Analysis::new(
+            parameters.structure.body::<f64>(),
+            parameters.chains(),
+            record.dt,
+            &record.accel,
+        )
     }
     .simulate_with(&parameters.members())
     .0

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use decks::deck_steps;
 use dynamics::{
     effort::Effort,
-    fem::{Analysis, Change, Control, Observer, Start, View},
+    fem::{Analysis, Change, Control, Observer, View},
     spring::{Design, Springs},
 };
 use landing::design::springs_at_stiffness;
@@ -156,14 +156,9 @@ fn error_and_cost(job: &Job, springs: &Springs<Design<f64>>) -> (Option<f64>, (f
         Some(error) => Some(error).filter(|error| error.is_finite()),
         None => {
             let case = Analysis {
-                body: job.body,
-                springs: chains,
-                start: Start::Settled,
-                dt: job.record.dt,
-                accel: &job.record.accel,
                 vertical: job.record.up(),
-                scale: 1.0,
                 control,
+                ..Analysis::new(job.body, chains, job.record.dt, &job.record.accel)
             };
             case.observe(&mut watch);
             measured_error(job, springs).or_else(|| error(job, springs))

@@ -3,7 +3,7 @@
 
 use dynamics::{
     effort::Effort,
-    fem::{Analysis, Control, Start},
+    fem::{Analysis, Start},
     spring::{Design, Springs},
 };
 use landing::{
@@ -95,16 +95,9 @@ fn free_rocking_on_stiff_springs_never_creates_energy() {
     let body = with_inertia(Structure::paper());
     let springs = springs_at_stiffness(&body, 4e4).unwrap().chains(body.mass);
     let accel = vec![0.0; 10001];
-    let (start, control) = (Start::Leaning(0.9 * body.alpha()), Control::default());
     let history = Analysis {
-        body,
-        springs,
-        start,
-        dt: 0.01,
-        accel: &accel,
-        vertical: &[],
-        scale: 1.0,
-        control,
+        start: Start::Leaning(0.9 * body.alpha()),
+        ..Analysis::new(body, springs, 0.01, &accel)
     }
     .simulate();
     assert!(history.impacts() > 10);

@@ -223,15 +223,10 @@ pub(super) fn elements(
     let pushes: Vec<Cow<[f64]>> =
         grounds.iter().map(|(accel, vertical)| push(accel, vertical)).collect();
     let case = |i: usize| fem::Analysis {
-        body: wanted[i].subject.body,
-        springs: wanted[i].springs,
-        start: fem::Start::Settled,
-        dt: record.dt,
-        accel: &grounds[i].0,
         vertical: &grounds[i].1,
-        scale: 1.0,
         // peaks and comparisons alone
         control: fem::Control { long_steps: true, ..fem::Control::search() },
+        ..fem::Analysis::new(wanted[i].subject.body, wanted[i].springs, record.dt, &grounds[i].0)
     };
     let cases: Vec<fem::Analysis> = (0..wanted.len()).map(case).collect();
     let followed = fem::histories(&cases, |i| {

@@ -245,14 +245,8 @@ impl Validator {
         control: fem::Control,
     ) -> fem::Analysis<'a> {
         fem::Analysis {
-            body: self.body,
-            springs: *springs,
-            start: fem::Start::Settled,
-            dt: record.dt,
-            accel: &record.accel,
-            vertical: &[],
-            scale: 1.0,
             control,
+            ..fem::Analysis::new(self.body, *springs, record.dt, &record.accel)
         }
     }
 

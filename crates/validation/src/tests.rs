@@ -45,17 +45,8 @@ fn a_row_says_what_the_whole_histories_say() {
     let rocking =
         housner::solve(&judge.body, short.dt, &short.accel, &housner::RockingOptions::default());
     let motion = rocking.motion(&judge.body);
-    let history = fem::Analysis {
-        body: judge.body,
-        springs: springs(&frame()),
-        start: fem::Start::Settled,
-        dt: short.dt,
-        accel: &short.accel,
-        vertical: &[],
-        scale: 1.0,
-        control: Control::default(),
-    }
-    .simulate();
+    let history =
+        fem::Analysis::new(judge.body, springs(&frame()), short.dt, &short.accel).simulate();
     let found =
         Match::new(&judge.body, short.dt, (&motion, &rocking.impacts), &history, judge.restitution);
     let close = |a: f64, b: f64| (a - b).abs() <= 1e-12 * b.abs();
@@ -242,17 +233,9 @@ fn errors_of_peaks_are_those_of_an_independent_calculation() {
         let row = judge.judge(std::slice::from_ref(&record)).remove(0);
         let rocking =
             housner::solve(body, record.dt, &record.accel, &housner::RockingOptions::default());
-        let (mut history, mut demands) = fem::Analysis {
-            body: *body,
-            springs: springs(&structure),
-            start: fem::Start::Settled,
-            dt: record.dt,
-            accel: &record.accel,
-            vertical: &[],
-            scale: 1.0,
-            control: Control::default(),
-        }
-        .simulate_with(&rocking::members::Members::default());
+        let (mut history, mut demands) =
+            fem::Analysis::new(*body, springs(&structure), record.dt, &record.accel)
+                .simulate_with(&rocking::members::Members::default());
         let largest = |x: &[f64]| x.iter().fold(0.0, |peak: f64, x| peak.max(x.abs()));
         let motion = rocking.motion(body);
         let displacement = (largest(&history.motion.u) / largest(&motion.u) - 1.0).abs();

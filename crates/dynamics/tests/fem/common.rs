@@ -59,18 +59,8 @@ pub fn settled(
     record: &Record,
     control: Control,
 ) -> History {
-    let (dt, accel) = (record.dt, &record.accel[..]);
-    Analysis {
-        body: structure.body(),
-        springs,
-        start: Start::Settled,
-        dt,
-        accel,
-        vertical: &[],
-        scale: 1.0,
-        control,
-    }
-    .simulate()
+    Analysis { control, ..Analysis::new(structure.body(), springs, record.dt, &record.accel) }
+        .simulate()
 }
 
 /// Free rocking from a lean (rad) for n samples of dt (s).
@@ -82,17 +72,7 @@ pub fn free(
     n: usize,
 ) -> History {
     let (start, accel) = (Start::Leaning(lean), &vec![0.0; n][..]);
-    Analysis {
-        body: structure.body(),
-        springs,
-        start,
-        dt,
-        accel,
-        vertical: &[],
-        scale: 1.0,
-        control: Control::default(),
-    }
-    .simulate()
+    Analysis { start, ..Analysis::new(structure.body(), springs, dt, accel) }.simulate()
 }
 
 /// What every history promises: numbers, all samples, a closed energy account, no energy from

@@ -64,8 +64,7 @@ fn a_touch_down_at_zero_velocity_is_the_same_as_none() {
                 .map(|i| if f64::from(i) * dt < 0.5 * fall { 0.0 } else { -push })
                 .collect();
             let (body, springs) = (block().body(), plastic(160.0, 1e3));
-            let (start, control) = (Start::Leaning(lean), Control::default());
-            Analysis { body, springs, start, dt, accel: &accel, vertical: &[], scale: 1.0, control }
+            Analysis { start: Start::Leaning(lean), ..Analysis::new(body, springs, dt, &accel) }
                 .simulate()
         };
         // the left foot is in the air at first
@@ -248,17 +247,8 @@ fn records_of_no_sample_one_and_two() {
         for n in 0..3 {
             let (body, springs, accel) =
                 (block().body(), table_1(160.0, 1e3), vec![3.0 * LIMIT; n]);
-            let history = Analysis {
-                body,
-                springs,
-                start,
-                dt: 0.01,
-                accel: &accel,
-                vertical: &[],
-                scale: 1.0,
-                control: Control::default(),
-            }
-            .simulate();
+            let history =
+                Analysis { start, ..Analysis::new(body, springs, 0.01, &accel) }.simulate();
             assert_eq!((history.outcome, history.motion.len()), (HistoryOutcome::Completed, n));
             assert_eq!((history.impacts(), history.bounces()), (0, 0));
             let first = history.motion.theta.first();

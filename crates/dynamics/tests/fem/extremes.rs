@@ -31,18 +31,7 @@ fn a_frame_of_restitution_zero_loses_its_energy_in_the_first_landing() {
     let ratios = (0.5, 0.1, 0.64);
     for hz in [40.0, 160.0, 640.0] {
         let (springs, start) = (chains(ratios, ratios, hz, body.mass), Start::Leaning(lean));
-        let control = Control::default();
-        let history = Analysis {
-            body,
-            springs,
-            start,
-            dt: 0.01,
-            accel: &accel,
-            vertical: &[],
-            scale: 1.0,
-            control,
-        }
-        .simulate();
+        let history = Analysis { start, ..Analysis::new(body, springs, 0.01, &accel) }.simulate();
         assert_sound(&history, 300);
         let first = &history.landings[0];
         assert!(first.impact && (first.time / landing - 1.0).abs() < 0.01, "{first:?} {landing}");
@@ -104,16 +93,7 @@ fn without_dampers_nothing_is_dissipated() {
             .chains(structure.mass_kg);
         let record = el_centro();
         let (mut samples, mut released) = (0, 0.0);
-        let case = Analysis {
-            body: structure.body(),
-            springs,
-            start: Start::Settled,
-            dt: record.dt,
-            accel: &record.accel,
-            vertical: &[],
-            scale: 1.0,
-            control: Control::default(),
-        };
+        let case = Analysis::new(structure.body(), springs, record.dt, &record.accel);
         let finish: Finish = case.observe(&mut |_: usize, view: &View| {
             samples += 1;
             assert!(view.x().is_finite() && view.z().is_finite());

@@ -84,14 +84,10 @@ fn a_history_is_the_same_to_the_last_bit_in_any_company_and_on_any_number_of_thr
                 if i % 9 == 5 { Start::Leaning(0.6 * body.alpha()) } else { Start::Settled };
             let vertical: &[f64] = if i % 5 == 4 { &up } else { &[] };
             Analysis {
-                body,
-                springs,
                 start,
-                dt: record.dt,
-                accel: &record.accel,
                 vertical,
-                scale: 1.0,
                 control,
+                ..Analysis::new(body, springs, record.dt, &record.accel)
             }
         })
         .collect();
@@ -136,17 +132,8 @@ fn steps_over_several_samples_keep_the_history_and_follow_the_tolerance() {
         let at = |tolerance: f64, long_steps: bool| {
             let control = Control { tolerance, long_steps, ..Control::default() };
             let (start, dt, accel) = (Start::Settled, record.dt, &record.accel[..]);
-            Analysis {
-                body: structure.body(),
-                springs,
-                start,
-                dt,
-                accel,
-                vertical: &[],
-                scale: 1.0,
-                control,
-            }
-            .simulate()
+            Analysis { start, control, ..Analysis::new(structure.body(), springs, dt, accel) }
+                .simulate()
         };
         let tight = at(1e-12, false);
         let error = |tolerance| nrmse(&at(tolerance, true).motion.u, &tight.motion.u);

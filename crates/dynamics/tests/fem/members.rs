@@ -19,18 +19,7 @@ fn run(
     record: &Record,
     members: &Members,
 ) -> (History, Demands) {
-    let (dt, accel, control) = (record.dt, &record.accel[..], Control::default());
-    Analysis {
-        body: structure.body(),
-        springs,
-        start: Start::Settled,
-        dt,
-        accel,
-        vertical: &[],
-        scale: 1.0,
-        control,
-    }
-    .simulate_with(members)
+    Analysis::new(structure.body(), springs, record.dt, &record.accel).simulate_with(members)
 }
 
 /// Members worth trying together and alone.
@@ -111,14 +100,8 @@ fn dampers_take_energy_out_of_free_rocking() {
     let lean = 0.5 * structure.body::<f64>().alpha();
     let still = vec![0.0; 1500];
     let case = Analysis {
-        body: structure.body(),
-        springs,
         start: Start::Leaning(lean),
-        dt: 0.01,
-        accel: &still,
-        vertical: &[],
-        scale: 1.0,
-        control: Control::default(),
+        ..Analysis::new(structure.body(), springs, 0.01, &still)
     };
     let members = Members { damper: Some(Damper { c: 1e6 }), ..Members::default() };
     let (damped, demands) = case.simulate_with(&members);

@@ -1,7 +1,7 @@
 //! The same case in other units, at another scale, or mirrored is the same case.
 
 use dynamics::{
-    fem::{Analysis, Control, History, Start},
+    fem::{Analysis, Control, History},
     spring::{Chain, Springs},
 };
 use rocking::structure::Structure;
@@ -39,17 +39,7 @@ fn scaled(structure: &Structure, make: Make, record: &Record, length: f64, mass:
         ..*structure
     };
     let springs = make(80.0 / time, structure.mass_kg);
-    Analysis {
-        body: structure.body(),
-        springs,
-        start: Start::Settled,
-        dt: record.dt * time,
-        accel: &record.accel,
-        vertical: &[],
-        scale: 1.0,
-        control: Control::default(),
-    }
-    .simulate()
+    Analysis::new(structure.body(), springs, record.dt * time, &record.accel).simulate()
 }
 
 #[test]

@@ -2,7 +2,7 @@
 //! do in a landing.
 
 use dynamics::{
-    fem::{Analysis, Control, History, HistoryOutcome, Start},
+    fem::{Analysis, Control, History, HistoryOutcome},
     spring::{Chain, Design, Springs},
 };
 use rocking::{
@@ -49,17 +49,7 @@ fn suite(structure: &Structure, springs: Springs<Chain>, n: usize) -> Vec<(Histo
     let run = |record: strong_motion::Record| {
         let control = Control { most_steps: 500_000, ..Control::default() };
         let (dt, accel) = (record.dt, &record.accel[..]);
-        let history = Analysis {
-            body,
-            springs,
-            start: Start::Settled,
-            dt,
-            accel,
-            vertical: &[],
-            scale: 1.0,
-            control,
-        }
-        .simulate();
+        let history = Analysis { control, ..Analysis::new(body, springs, dt, accel) }.simulate();
         let rocking = housner::solve(&body, dt, accel, &RockingOptions::default());
         let rocked = rocking.outcome == housner::RockingOutcome::Rocked
             && history.outcome == HistoryOutcome::Completed;
@@ -135,18 +125,7 @@ fn a_stocky_frame_follows_housner_until_his_pivot_would_have_to_pull() {
         let (dt, accel) = (record.dt, &record.accel[..]);
         let rocking = housner::solve(&body, dt, accel, &RockingOptions::default());
         let Some(time) = regime::pivot_pulls(&body, dt, accel, &rocking) else { continue };
-        let control = Control::default();
-        let history = Analysis {
-            body,
-            springs,
-            start: Start::Settled,
-            dt,
-            accel,
-            vertical: &[],
-            scale: 1.0,
-            control,
-        }
-        .simulate();
+        let history = Analysis::new(body, springs, dt, accel).simulate();
         let (u, reference) = (&history.motion.u, &rocking.motion(&body).u);
         let until = (time / dt) as usize + 1;
         before.push(nrmse(&u[..until], &reference[..until]));

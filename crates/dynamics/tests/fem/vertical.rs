@@ -2,7 +2,7 @@
 //! closes, a thrown body flies.
 
 use dynamics::{
-    fem::{Analysis, Control, History, HistoryOutcome, Start},
+    fem::{Analysis, History, HistoryOutcome},
     spring::{Chain, Design, Springs},
 };
 use rocking::synthetic;
@@ -36,8 +36,7 @@ fn simulate(
     accel: &[f64],
     vertical: &[f64],
 ) -> History {
-    let (start, control) = (Start::Settled, Control::default());
-    Analysis { body, springs, start, dt, accel, vertical, scale: 1.0, control }.simulate()
+    Analysis { vertical, ..Analysis::new(body, springs, dt, accel) }.simulate()
 }
 
 /// A horizontal motion, and another one with a peak of `peak` (g) as the vertical.

@@ -102,14 +102,9 @@ impl Release {
         let quiet = vec![0.0; self.samples];
         let mut flight = LandingWatch { release: self, since: None, air: 0.0, growing: 0.0 };
         let case = Analysis {
-            body: *body,
-            springs: *chains,
             start: Start::Leaning(self.lean),
-            dt: self.dt,
-            accel: &quiet,
-            vertical: &[],
-            scale: 1.0,
             control,
+            ..Analysis::new(*body, *chains, self.dt, &quiet)
         };
         let finish = case.observe(&mut flight);
         finish.spend(effort);

@@ -95,14 +95,9 @@ impl Swing {
 
     fn case(&self, body: &Body<f64>, chains: &Springs<Chain>, control: Control) -> Analysis<'_> {
         Analysis {
-            body: *body,
-            springs: *chains,
             start: Start::Leaning(self.start),
-            dt: self.dt,
-            accel: &self.quiet,
-            vertical: &[],
-            scale: 1.0,
             control,
+            ..Analysis::new(*body, *chains, self.dt, &self.quiet)
         }
     }
 }

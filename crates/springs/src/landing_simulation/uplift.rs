@@ -13,7 +13,7 @@ use std::{f64::consts::PI, ops::ControlFlow};
 
 use dynamics::{
     effort::Effort,
-    fem::{Analysis, Control, HistoryOutcome, Start, View},
+    fem::{Analysis, Control, HistoryOutcome, View},
     spring::{Chain, Springs},
 };
 use rocking::{housner, scalar::GRAVITY, structure::Body};
@@ -85,16 +85,7 @@ impl UpliftRamp {
             }
             ControlFlow::Continue(())
         };
-        let case = Analysis {
-            body: *body,
-            springs: *chains,
-            start: Start::Settled,
-            dt: self.dt,
-            accel: &self.accel,
-            vertical: &[],
-            scale: 1.0,
-            control,
-        };
+        let case = Analysis { control, ..Analysis::new(*body, *chains, self.dt, &self.accel) };
         let finish = case.observe(&mut observer);
         finish.spend(effort);
         if finish.outcome != HistoryOutcome::Completed {

@@ -20,7 +20,7 @@ use running_error::RunningError;
 
 use dynamics::{
     effort::Effort,
-    fem::{Analysis, Control, Finish, HistoryOutcome, Start, histories},
+    fem::{Analysis, Control, Finish, HistoryOutcome, histories},
     spring::{Design, Springs},
 };
 use frequency_response::inner::Fit;
@@ -90,14 +90,9 @@ impl Benchmark<'_> {
     /// The finite element case of these springs.
     pub(crate) fn case(&self, springs: &Springs<Design<f64>>, control: Control) -> Analysis<'_> {
         Analysis {
-            body: self.body,
-            springs: springs.chains(self.body.mass),
-            start: Start::Settled,
-            dt: self.dt,
-            accel: self.accel,
             vertical: self.vertical,
-            scale: 1.0,
             control,
+            ..Analysis::new(self.body, springs.chains(self.body.mass), self.dt, self.accel)
         }
     }
 

@@ -4,7 +4,7 @@ use std::{borrow::Cow, ops::ControlFlow, sync::Arc};
 
 use dynamics::{
     effort::Effort,
-    fem::{Analysis, Change, Control, Finish, HistoryOutcome, Observer, Start, View, histories},
+    fem::{Analysis, Change, Control, Finish, HistoryOutcome, Observer, View, histories},
     spring::{Chain, Springs},
 };
 use rocking::{
@@ -137,14 +137,9 @@ impl ReferenceMotion {
 
     fn case(&self, body: &Body<f64>, springs: &Springs<Chain>, control: Control) -> Analysis<'_> {
         Analysis {
-            body: *body,
-            springs: *springs,
-            start: Start::Settled,
-            dt: self.dt,
-            accel: &self.accel,
             vertical: self.vertical.as_deref().unwrap_or_default(),
-            scale: 1.0,
             control,
+            ..Analysis::new(*body, *springs, self.dt, &self.accel)
         }
     }
 }

@@ -39,16 +39,8 @@ fn stiff_legs_with_light_feet_rock_as_the_rigid_body_does() {
         let both = [springs; 2];
         let history =
             ElasticAnalysis::new(&frame, &both, elastic, 0.01, &accel).simulate().unwrap();
-        let case = fem::Analysis {
-            body,
-            springs,
-            start: rigid,
-            dt: 0.01,
-            accel: &accel,
-            vertical: &[],
-            scale: 1.0,
-            control: fem::Control::default(),
-        };
+        let case =
+            fem::Analysis { start: rigid, ..fem::Analysis::new(body, springs, 0.01, &accel) };
         let expected = case.simulate();
         let error = nrmse(&history.rotation(&frame, Base::Feet), &expected.motion.theta);
         assert!(error < 2e-3, "{error:e}");

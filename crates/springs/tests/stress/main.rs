@@ -79,17 +79,8 @@ fn finite_element_histories_are_finite_close_their_account_and_say_how_they_ende
             Start::Settled
         };
         let control = Control { most_steps: MOST_STEPS, ..Control::default() };
-        let history = Analysis {
-            body,
-            springs,
-            start,
-            dt,
-            accel: &accel,
-            vertical: &[],
-            scale: 1.0,
-            control,
-        }
-        .simulate();
+        let history =
+            Analysis { start, control, ..Analysis::new(body, springs, dt, &accel) }.simulate();
 
         let (outcome, motion, account) = (history.outcome, &history.motion, &history.account);
         require(finite(motion), || format!("not finite, {outcome:?}"))?;

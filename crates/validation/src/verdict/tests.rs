@@ -1,6 +1,6 @@
 use super::*;
 use dynamics::{
-    fem::{Analysis, Control, Start},
+    fem::Analysis,
     spring::{Design, Springs},
 };
 use rocking::structure::Structure;
@@ -18,9 +18,7 @@ fn verdict(record: &Record) -> Verdict {
     let (dt, accel, options) = (record.dt, &record.accel[..], housner::RockingOptions::default());
     let rocking = housner::solve(&body, dt, accel, &options);
     let springs = springs.chains(structure.mass_kg);
-    let (start, control) = (Start::Settled, Control::default());
-    let history =
-        Analysis { body, springs, start, dt, accel, vertical: &[], scale: 1.0, control }.simulate();
+    let history = Analysis::new(body, springs, dt, accel).simulate();
     let motion = rocking.motion(&body);
     let matched = Match::new(&body, dt, (&motion, &rocking.impacts), &history, body.restitution());
     let conditioning = Conditioning::new(&body, dt, accel, &options);

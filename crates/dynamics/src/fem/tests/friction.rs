@@ -6,7 +6,7 @@ use num_complex::Complex;
 use super::{dense, largest_residual, state};
 use crate::{
     fem::{
-        Analysis, Control, History, Start,
+        Analysis, History,
         model::{Contact, Foot, Model},
         newton::Newton,
     },
@@ -41,18 +41,7 @@ fn model(body: &Body<f64>) -> Model {
 
 fn run(body: Body<f64>, coefficient: f64, dt: f64, accel: &[f64]) -> History {
     let springs = springs().chains(body.mass);
-    Analysis {
-        body,
-        springs,
-        start: Start::Settled,
-        dt,
-        accel,
-        vertical: &[],
-        scale: 1.0,
-        control: Control::default(),
-    }
-    .simulate_with(&members(coefficient))
-    .0
+    Analysis::new(body, springs, dt, accel).simulate_with(&members(coefficient)).0
 }
 
 /// A solid block, its centre of mass at `height`.
@@ -98,17 +87,7 @@ fn a_flat_block_slips_as_far_as_newton_says() {
     accel.extend(vec![0.0; 600]);
     // stiff springs: softer ones give way before friction has built up
     let springs = springs_of(2000.0).chains(1000.0);
-    let control = Control::default();
-    let case = Analysis {
-        body: flat(),
-        springs,
-        start: Start::Settled,
-        dt,
-        accel: &accel,
-        vertical: &[],
-        scale: 1.0,
-        control,
-    };
+    let case = Analysis::new(flat(), springs, dt, &accel);
     let history = case.simulate_with(&members(MU)).0;
     // the last interval of the pulse is a ramp down to zero: speed of the ground by the trapezoidal
     // rule
@@ -134,16 +113,7 @@ fn no_foot_carries_more_than_friction_allows() {
     let accel: Vec<f64> = record.accel.iter().map(|a| 2.0 * a).collect();
     for body in [flat(), block(2.0, 1.0)] {
         let springs = springs().chains(body.mass);
-        let case = Analysis {
-            body,
-            springs,
-            start: Start::Settled,
-            dt: record.dt,
-            accel: &accel,
-            vertical: &[],
-            scale: 1.0,
-            control: Control::default(),
-        };
+        let case = Analysis::new(body, springs, record.dt, &accel);
         let mut worst: f64 = 0.0;
         let mut slips = 0.0_f64;
         let mut watch = |_: usize, view: &crate::fem::View| {
@@ -177,16 +147,7 @@ fn feet_that_never_slip_give_the_history_without_friction() {
     let record = Record::el_centro().truncated(10.0);
     let body = block(2.0, 0.5);
     let springs = springs().chains(body.mass);
-    let case = Analysis {
-        body,
-        springs,
-        start: Start::Settled,
-        dt: record.dt,
-        accel: &record.accel,
-        vertical: &[],
-        scale: 1.0,
-        control: Control::default(),
-    };
+    let case = Analysis::new(body, springs, record.dt, &record.accel);
     let (free, bound) = (case.simulate(), case.simulate_with(&members(50.0)).0);
     let worst =
         free.motion.u.iter().zip(&bound.motion.u).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);

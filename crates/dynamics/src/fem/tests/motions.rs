@@ -22,8 +22,7 @@ fn run(
 ) -> crate::fem::History {
     let accel = vec![0.0; n];
     let control = Control { tolerance: 1e-11, ..Control::default() };
-    Analysis { body, springs, start, dt, accel: &accel, vertical: &[], scale: 1.0, control }
-        .simulate()
+    Analysis { start, control, ..Analysis::new(body, springs, dt, &accel) }.simulate()
 }
 
 #[test]
