@@ -57,7 +57,8 @@ pub struct StepSettings {
     /// Touch refinement: so many substeps in a step within which a gap is about to open or close,
     /// and in the step after one that did. 1: none.
     pub at_touches: usize,
-    /// Event-to-event stepping: whether and how steps are cut where a contact changes.
+    /// Event-to-event stepping, for programs that offer it: whether and how steps are cut where a
+    /// contact changes; not together with `at_touches`.
     pub events: Option<EventStepping>,
     /// The iteration at a step's end.
     pub iteration: Iteration,
@@ -73,11 +74,6 @@ impl StepSettings {
     /// With substeps down to this part of a step: 1/16 for instance.
     pub fn with_substeps(self, part: f64) -> Self {
         Self { least: part * self.step, ..self }
-    }
-
-    /// With steps cut at events, for programs that offer it; not together with `at_touches`.
-    pub fn with_events(self, events: EventStepping) -> Self {
-        Self { events: Some(events), ..self }
     }
 
     /// With so many substeps in steps at touches, for springs of any stiffness: a program that can

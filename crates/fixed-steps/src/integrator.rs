@@ -38,8 +38,10 @@ pub enum Integrator {
         /// damping). OpenSees' own number is 1 + alpha: `integrator('HHT', 2/3)` is alpha = -1/3.
         alpha: f64,
     },
-    /// Chung and Hulbert's. OpenSees' `GeneralizedAlpha` is not this one: it forms the inertia
-    /// forces with the acceleration at the step's end (`Integrator::opensees_generalized_alpha`).
+    /// Chung and Hulbert's. What OpenSees 3.7's `GeneralizedAlpha` does in truth, when given their
+    /// numbers, is not this: alpha_M scales the tangent of its iteration, but the inertia forces
+    /// are those of the step's end: for rho_inf = 1/2 it is HHT with alpha = -1/3, for 0 Newmark's
+    /// method with gamma = 3/2, beta = 1.
     GeneralizedAlpha {
         /// Spectral radius of infinitely stiff modes, 0 (they end within a step) to 1.
         rho_inf: f64,
@@ -109,18 +111,6 @@ impl Integrator {
     pub const HHT_MOST: Self = Self::Hht { alpha: -1.0 / 3.0 };
     /// Generalized alpha that ends infinitely stiff modes within a step.
     pub const GENERALIZED_ALPHA_0: Self = Self::GeneralizedAlpha { rho_inf: 0.0 };
-
-    /// What OpenSees 3.7's GeneralizedAlpha does in truth, when given Chung and Hulbert's numbers
-    /// for rho_inf: alpha_M scales the tangent of its iteration, but the inertia forces are those
-    /// of the step's end. Newmark's formulas with w = 1/(1 + rho) and m = 1.
-    pub fn opensees_generalized_alpha(rho_inf: f64) -> Self {
-        let w = 1.0 / (1.0 + rho_inf);
-        if w == 1.0 {
-            Self::Newmark { gamma: 1.5, beta: 1.0 }
-        } else {
-            Self::Hht { alpha: w - 1.0 }
-        }
-    }
 
     /// The integrator itself if it is stable at any step.
     ///
@@ -224,13 +214,9 @@ mod tests {
         // beyond -1/3 less again: -alpha/(1 + alpha)
         let radius = Integrator::Hht { alpha: -0.414 }.stiff_radius();
         assert!((radius - 0.414 / 0.586).abs() < 1e-12, "{radius}");
-        // Newmark (1.5, 1), what OpenSees' GeneralizedAlpha of rho_inf 0 is: both eigenvalues are 0
-        let same = Integrator::opensees_generalized_alpha(0.0);
+        // what OpenSees' GeneralizedAlpha of rho_inf 0 is: both eigenvalues are 0
+        let same = Integrator::Newmark { gamma: 1.5, beta: 1.0 };
         assert!(same.stiff_radius() < 1e-7 && Integrator::Trbdf2.ends_stiff_modes());
-        assert_eq!(
-            Integrator::opensees_generalized_alpha(0.5),
-            Integrator::Hht { alpha: 1.0 / 1.5 - 1.0 }
-        );
     }
 
     #[test]

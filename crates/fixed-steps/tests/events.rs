@@ -41,8 +41,8 @@ fn history(peak: f64, integrator: Integrator, step: f64, cut: bool) -> FixedStep
     let model = FixedStepBody::new(&body, &units(&body));
     let iteration = Iteration { constant: 0, newton: 30, test: ConvergenceTest::Increment(1e-9) };
     let settings = StepSettings { iteration, ..StepSettings::new(integrator, step) };
-    let settings = settings.with_substeps(1.0 / 16.0);
-    let settings = if cut { settings.with_events(EventStepping::USUAL) } else { settings };
+    let events = cut.then_some(EventStepping::USUAL);
+    let settings = StepSettings { events, ..settings.with_substeps(1.0 / 16.0) };
     FixedStepAnalysis::new(&model, settings, DT, &pulse(peak)).history()
 }
 

@@ -2,10 +2,9 @@
 //! with.
 
 use super::{
-    ElasticTuneError, ElasticTuned, Rungs,
+    ElasticTuneError, Rungs,
     design::{CornerSprings, omega_n_hz, springs},
     give, landing_speed, stand,
-    suite::Measured,
 };
 use cases::Asked;
 use frames::assembled::Assembled;
@@ -21,23 +20,4 @@ pub fn springs_of_structure(
     let standing = stand(model).ok_or(ElasticTuneError::Falls)?;
     let rungs = Rungs::new(asked.error, None, |i| omega_n_hz(&standing, give(i)))?;
     Ok(springs(&standing, give(rungs.guess), landing_speed(&model.structure), 1.0))
-}
-
-impl ElasticTuned {
-    /// Springs of which nothing is measured.
-    pub fn unmeasured(springs: CornerSprings) -> Self {
-        Self {
-            springs,
-            measured: Measured::default(),
-            reached: false,
-            reference: None,
-            softer_hz: None,
-            stiffnesses: 0,
-            cut: None,
-            not_done: Vec::new(),
-            unfinished: 0,
-            out_of_work: 0,
-            program: None,
-        }
-    }
 }
