@@ -169,4 +169,14 @@ mod tests {
         assert_relative_eq!(back.xi, design.xi, max_relative = 1e-14);
         assert_relative_eq!(back.omega_n_hz, design.omega_n_hz, max_relative = 1e-14);
     }
+
+    /// g (1 + 1/K)/(2 Omega_n^2), whatever the mass.
+    #[test]
+    fn a_settlement_is_that_of_both_springs() {
+        let chain = Design::from_kc(10.0, 9.3, 4.0, 6.2);
+        let settlement = Springs { vertical: chain, horizontal: chain }.settlement(680.1e3);
+        let omega_n = std::f64::consts::TAU * 6.2;
+        let expected = 0.5 * rocking::scalar::GRAVITY * (1.0 + 1.0 / 9.3) / omega_n.powi(2);
+        assert_relative_eq!(settlement, expected, max_relative = 1e-14);
+    }
 }

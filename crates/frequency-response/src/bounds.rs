@@ -24,7 +24,7 @@ pub struct Bounds {
     /// Largest damping ratio xi [-].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub xi_max: Option<f64>,
-    /// Smallest stiffness ratio K = k2/k1 [-]; see [`k_min_for_settlement`].
+    /// Smallest stiffness ratio K = k2/k1 [-].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub k_min: Option<f64>,
 }
@@ -46,11 +46,6 @@ pub enum BoundsError {
         high: f64,
         mu: f64,
     },
-    #[error(
-        "bounds: a settlement of {settlement_m} m is less than the gap springs alone give at \
-         {omega_n_hz} Hz, {least_m:.3e} m; allow more or raise Omega_n"
-    )]
-    Settlement { settlement_m: f64, omega_n_hz: f64, least_m: f64 },
 }
 
 /// The box low <= z <= high that bounds make at one mu, and the name of each side.
@@ -64,26 +59,6 @@ pub(crate) struct Region {
 
 /// The side of the box where nothing was asked.
 const SEARCH_RANGE: &str = "search_range";
-
-/// Smallest K with which a body on two feet settles by at most `settlement_m` (m) under its weight,
-/// the vertical chain at `omega_n_hz` (Hz); for [`Bounds::k_min`].
-pub fn k_min_for_settlement(settlement_m: f64, omega_n_hz: f64) -> Result<f64, BoundsError> {
-    use rocking::scalar::GRAVITY;
-    use std::f64::consts::TAU;
-
-    for (name, value) in [("settlement_m", settlement_m), ("omega_n_hz", omega_n_hz)] {
-        if !(value.is_finite() && value > 0.0) {
-            return Err(BoundsError::NotPositive { name, value });
-        }
-    }
-    let least_m = 0.5 * GRAVITY / (TAU * omega_n_hz).powi(2);
-    let one_over_k = settlement_m / least_m - 1.0;
-    if one_over_k > 0.0 {
-        Ok(1.0 / one_over_k)
-    } else {
-        Err(BoundsError::Settlement { settlement_m, omega_n_hz, least_m })
-    }
-}
 
 impl Bounds {
     /// The box of z at mass ratio mu.
@@ -165,22 +140,6 @@ impl Region {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use approx::assert_relative_eq;
-    use dynamics::spring::{Design, Springs};
-
-    #[test]
-    fn the_k_of_a_settlement_settles_by_it() {
-        let k = k_min_for_settlement(3.58e-3, 6.2).unwrap();
-        let chain = Design::from_kc(10.0, k, 4.0, 6.2);
-        let settlement = Springs { vertical: chain, horizontal: chain }.settlement(680.1e3);
-        assert_relative_eq!(settlement, 3.58e-3, max_relative = 1e-14);
-    }
-
-    #[test]
-    fn a_settlement_below_that_of_the_gap_springs_is_refused() {
-        let error = k_min_for_settlement(1e-3, 6.2).unwrap_err();
-        assert!(error.to_string().contains("3.232e-3"), "{error}");
-    }
 
     #[test]
     fn bounds_that_leave_nothing_are_named() {

@@ -118,12 +118,6 @@ pub fn fit(mu: f64, target: &Target, bounds: &Bounds) -> Result<Fit, FitError> {
     Ok(Fit::new(&problem, &minimum))
 }
 
-/// Fits of the default target for many mass ratios, in their order; in parallel.
-pub fn families(mus: &[f64]) -> Result<Vec<Fit>, FitError> {
-    let fits = parallel::map(mus, |&mu| fit(mu, &Target::default(), &Bounds::default()));
-    fits.into_iter().collect()
-}
-
 /// Starts for stage 1: K about the closed forms' (1/2 for small mu, mu - 1 for large) and away from
 /// them.
 fn starts(mu: f64) -> Vec<SearchParameters> {
