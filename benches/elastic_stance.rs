@@ -6,7 +6,7 @@
 //! ```
 
 use cases::{Asked, Yardstick};
-use dynamics::fem::Control;
+use dynamics::{effort::Effort, fem::Control};
 use frames::{assembled::Assembled, standing::Standing, structure::ElasticStructure};
 use springs::elastic::{
     design::{BALANCE, KBalance, with_k},
@@ -58,7 +58,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         println!("{}", text.replace('\n', "; "));
         let model = Assembled::new(structure)?;
         let standing = stand(&model).ok_or("does not stand")?;
-        let suite = ElasticSuite::new(model, None);
+        let suite = ElasticSuite::new(model, None, &Effort::unbounded());
         for give in GIVES {
             rows += 1.0;
             for (sums, turn) in logarithms.iter_mut().zip(TURNS) {

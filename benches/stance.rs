@@ -10,7 +10,7 @@
 //! ```
 
 use cases::{Asked, Yardstick};
-use dynamics::{fem::Control, spring::Design};
+use dynamics::{effort::Effort, fem::Control, spring::Design};
 use landing::{
     design::{Geometry, springs_at_stiffness},
     universal::universal,
@@ -60,7 +60,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 let found: Vec<f64> = suites
                     .iter()
                     .map(|s| {
-                        s.accuracy(&springs, Control::search())
+                        s.accuracy(&springs, (Control::search(), &Effort::unbounded()))
                             .over(Asked { by: Yardstick::Histories, error: 1.0 })
                     })
                     .collect();

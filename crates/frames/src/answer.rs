@@ -7,10 +7,7 @@ use super::{
     ensemble::Ensemble,
     fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
     frame::{EquilibriumError, Frame},
-    reference::{
-        ElasticRocking, FOLLOWED, FORETOLD, GroundAcceleration, MOST_WORK, ReferenceOutcome,
-        RestError, TRIED,
-    },
+    reference::{ElasticRocking, FOLLOWED, GroundAcceleration, ReferenceOutcome, RestError, TRIED},
     rigid::RigidForces,
 };
 use dynamics::{
@@ -19,9 +16,6 @@ use dynamics::{
 };
 use rocking::members::Members;
 use strong_motion::Record;
-
-/// Share of a record's work that each of the motions near it may take: one in so many.
-const NEAR: u64 = 10;
 
 /// Over how much of a record two histories are compared.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -142,20 +136,12 @@ fn follow(
 }
 
 impl Reference {
-    /// Through a record, from rest.
+    /// Through a record, from rest, foretold for as long as a perturbation grows less than `limit`,
+    /// by so many units of work a history.
     ///
     /// # Errors
     /// The structure does not stand.
-    pub fn new(assembled: &Assembled, record: &Record) -> Result<Self, AnswerError> {
-        Self::within(assembled, record, FORETOLD, MOST_WORK)
-    }
-
-    /// The same, foretold for as long as a perturbation grows less than `limit`, by so many units
-    /// of work a history.
-    ///
-    /// # Errors
-    /// The structure does not stand.
-    pub fn within(
+    pub fn new(
         assembled: &Assembled,
         record: &Record,
         limit: f64,
@@ -265,25 +251,13 @@ impl ElasticHistories {
 }
 
 impl ElasticAnswer {
-    /// Through a record, from rest, beside its reference.
+    /// Through a record, from rest, beside its reference; motions near the record by so many units
+    /// of work each. None: neither these nor the histories by which forces are checked, so that no
+    /// force holds.
     ///
     /// # Errors
     /// The structure does not stand.
     pub fn new(
-        assembled: &Assembled,
-        springs: &[Springs<Chain>],
-        record: &Record,
-        reference: Reference,
-    ) -> Result<Self, AnswerError> {
-        Self::within(assembled, springs, record, reference, Some(MOST_WORK / NEAR))
-    }
-
-    /// The same; motions near the record by so many units of work each. None: neither these nor
-    /// the histories by which forces are checked, so that no force holds.
-    ///
-    /// # Errors
-    /// The structure does not stand.
-    pub fn within(
         assembled: &Assembled,
         springs: &[Springs<Chain>],
         record: &Record,

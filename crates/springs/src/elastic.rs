@@ -146,7 +146,7 @@ pub fn tune_within(
     let rungs = Rungs::new(asked.error, most_hz, |i| omega_n_hz(&standing, give(i)))?;
     let (record, reference) = record.unzip();
     let suite =
-        ElasticSuite::within(model.clone(), record.zip(reference.as_ref()), effort).by(asked.by);
+        ElasticSuite::new(model.clone(), record.zip(reference.as_ref()), effort).by(asked.by);
     let out_of_work = suite.out_of_work;
     let program = ElasticProgramSprings::measured(&suite, program, &model.structure.body(), effort);
     let of = |i: i64, share: f64| springs(&standing, give(i), landing, share);

@@ -279,7 +279,7 @@ fn evaluate(
     springs: Springs<Design<f64>>,
     effort: &Effort,
 ) -> Tuned {
-    let found = suites.accuracy_within(&springs.chains(body.mass), (Control::search(), effort));
+    let found = suites.accuracy(&springs.chains(body.mass), (Control::search(), effort));
     let stiffness = TAU * springs.vertical.omega_n_hz / body.p_squared().sqrt();
     let best = Rung { stiffness, springs, errors: found };
     Tuned { rungs: vec![best], best, reached: found.over(asked) <= 1.0 }

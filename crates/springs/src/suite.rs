@@ -148,13 +148,9 @@ impl Suites {
         self.record.as_ref().is_some_and(|trial| !trial.overturns)
     }
 
-    /// The error of springs on every suite.
-    pub fn accuracy(&self, springs: &Springs<Chain>, control: Control) -> MeasuredErrors {
-        self.accuracy_within(springs, (control, &Effort::unbounded()))
-    }
-
-    /// The same, its work counted; nothing more is measured once it is stopped from outside.
-    pub(crate) fn accuracy_within(
+    /// The error of springs on every suite, its work counted; nothing more is measured once it is
+    /// stopped from outside.
+    pub fn accuracy(
         &self,
         springs: &Springs<Chain>,
         (control, effort): (Control, &Effort),

@@ -122,8 +122,7 @@ fn of_elastic(case: &ElasticCase, friction: f64) -> Result<(Run, Said, RunTexts)
         tune_within(&assembled, asked, Some((&record, reference)), &effort, &|_, _| {})?;
     let Some(reference) = tuned.reference.take() else { return Err(WebError::NoSprings) };
     let near = Some(effort.part(NEAR));
-    let answer =
-        ElasticAnswer::within(&assembled, &tuned.springs.corners, &record, reference, near)?;
+    let answer = ElasticAnswer::new(&assembled, &tuned.springs.corners, &record, reference, near)?;
     let run = ElasticRun::new(case.clone(), assembled, tuned, record, answer, friction);
     let out = Path::new(FOLDER);
     let told = run.said(run.filed(out));

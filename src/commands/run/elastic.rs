@@ -63,8 +63,7 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
         tuned.not_done.push(NotDone::ForceChecks);
         tuned.not_done.extend(reference.foretold_seconds(record.dt).map(|_| NotDone::NearMotions));
     }
-    let answer =
-        ElasticAnswer::within(&assembled, &tuned.springs.corners, &record, reference, near);
+    let answer = ElasticAnswer::new(&assembled, &tuned.springs.corners, &record, reference, near);
     progress.done();
     let answer = answer.map_err(|e| CommandError::Result(e.to_string()))?;
     let run = ElasticRun::new(case, assembled, tuned, record, answer, friction);

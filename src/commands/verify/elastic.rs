@@ -42,7 +42,7 @@ pub fn run(
     check_accuracy(o.accuracy)?;
     let assembled = parameters.assembled().map_err(|e| CommandError::Result(e.to_string()))?;
     let springs = parameters.chains();
-    let histories = Reference::within(&assembled, &record, TRIED, MOST_WORK)
+    let histories = Reference::new(&assembled, &record, TRIED, MOST_WORK)
         .and_then(|reference| ElasticHistories::new(&assembled, &springs, &record, reference))
         .map_err(|e| CommandError::Result(e.to_string()))?;
     let part = histories.compared(&record, &[]);

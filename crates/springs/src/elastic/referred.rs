@@ -57,5 +57,5 @@ pub fn referred(
     if steps > most {
         return Err(ReferredError::OutOfReach { record: record.name.clone(), steps, most });
     }
-    Ok(Reference::within(assembled, record, FORETOLD, most_work)?)
+    Ok(Reference::new(assembled, record, FORETOLD, most_work)?)
 }

@@ -155,28 +155,19 @@ pub struct ElasticSuite {
 }
 
 impl ElasticSuite {
-    /// Of a structure, with this record and its reference if there is one.
-    pub fn new(model: Assembled, record: Option<(&Record, &Reference)>) -> Self {
-        Self::within(model, record, &Effort::unbounded())
-    }
-
-    /// The same, its work counted; less of it once it is stopped from outside.
-    pub(crate) fn within(
-        model: Assembled,
-        record: Option<(&Record, &Reference)>,
-        effort: &Effort,
-    ) -> Self {
+    /// Of a structure, with this record and its reference if there is one, its work counted; less
+    /// of it once it is stopped from outside.
+    pub fn new(model: Assembled, record: Option<(&Record, &Reference)>, effort: &Effort) -> Self {
         let body = model.structure.body();
         let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
         let times = (RELEASE / p / SAMPLES, RELEASE / p);
-        let released =
-            |lean: f64| ElasticTrial::released_within(&model, lean * alpha, times, effort);
+        let released = |lean: f64| ElasticTrial::released(&model, lean * alpha, times, effort);
         let releases = parallel::map(&LEANS, |lean| released(*lean));
         let motion = |i: usize| match i % 2 {
             0 => synthetic::record(SEED, i / 2, p, alpha),
             _ => synthetic::earthquake(SEED, i / 2, p),
         };
-        let shaken = |i: usize| ElasticTrial::shaken_within(&model, &motion(i), effort);
+        let shaken = |i: usize| ElasticTrial::shaken(&model, &motion(i), effort);
         let motions = parallel::map_range(0..LOOKED_AT, shaken);
         let record =
             record.map(|(record, reference)| ElasticTrial::beside(&model, record, reference));
@@ -240,9 +231,7 @@ impl ElasticSuite {
     ) -> Option<ElasticErrors> {
         let judge = |trial: &ElasticTrial| match effort.stopped() {
             true => Judged::LOST,
-            false => {
-                trial.judge_within(&self.model, springs, self.forces.as_ref(), (control, effort))
-            }
+            false => trial.judge(&self.model, springs, self.forces.as_ref(), (control, effort)),
         };
         let judged = parallel::map(trials, judge);
         let sorted = |i: usize| {

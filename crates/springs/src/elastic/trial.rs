@@ -94,13 +94,8 @@ impl ElasticTrialOutcome {
 }
 
 impl ElasticTrial {
-    /// Let go from a lean.
-    pub fn released(model: &Assembled, lean: f64, dt: f64, duration: f64) -> ElasticTrialOutcome {
-        Self::released_within(model, lean, (dt, duration), &Effort::unbounded())
-    }
-
-    /// The same, its work counted.
-    pub(crate) fn released_within(
+    /// Let go from a lean, its work counted.
+    pub fn released(
         model: &Assembled,
         lean: f64,
         (dt, duration): (f64, f64),
@@ -115,17 +110,8 @@ impl ElasticTrial {
         Self::found(model, ground, Some(lean), &history, foretold)
     }
 
-    /// From rest through a record.
-    pub fn shaken(model: &Assembled, record: &Record) -> ElasticTrialOutcome {
-        Self::shaken_within(model, record, &Effort::unbounded())
-    }
-
-    /// The same, its work counted; unfit once it is stopped from outside.
-    pub(crate) fn shaken_within(
-        model: &Assembled,
-        record: &Record,
-        effort: &Effort,
-    ) -> ElasticTrialOutcome {
+    /// From rest through a record, its work counted; unfit once it is stopped from outside.
+    pub fn shaken(model: &Assembled, record: &Record, effort: &Effort) -> ElasticTrialOutcome {
         let Ok(q) = model.upright() else { return ElasticTrialOutcome::Unfit };
         let (accel, up) = (&record.accel, record.up());
         let mut samples = accel.len().div_ceil(PARTS);
@@ -231,19 +217,8 @@ impl ElasticTrial {
     }
 
     /// The errors on springs; infinite where their history does not get as far as the reference.
-    /// Those of forces, if asked for, beside springs at 4 Omega_n.
+    /// Those of forces, if asked for, beside springs at 4 Omega_n. Its work is counted.
     pub fn judge(
-        &self,
-        model: &Assembled,
-        springs: &CornerSprings,
-        forces: Option<&ColumnForces>,
-        control: Control,
-    ) -> Judged {
-        self.judge_within(model, springs, forces, (control, &Effort::unbounded()))
-    }
-
-    /// The same, its work counted.
-    pub(crate) fn judge_within(
         &self,
         model: &Assembled,
         springs: &CornerSprings,

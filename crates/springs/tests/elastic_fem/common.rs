@@ -4,10 +4,14 @@ use std::f64::consts::TAU;
 
 use dynamics::spring::{Chain, Springs};
 use frames::{
+    answer::{ElasticAnswer, Reference},
+    assembled::Assembled,
     beam::BeamSection,
     frame::{Cantilever, Footing, Frame, StraightMember},
+    reference::{FORETOLD, MOST_WORK},
 };
 use rocking::scalar::GRAVITY;
+use springs::elastic::design::CornerSprings;
 use strong_motion::Record;
 
 /// m, m_b (kg), h_b (m), f (Hz), k_a (N/m) of a pier 12 m high, 4 m wide, damped by 2 % across and
@@ -76,4 +80,19 @@ pub fn el_centro(samples: usize) -> Vec<f64> {
 pub fn nrmse(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
     rocking::motion::nrmse(a, b)
+}
+
+/// What a structure does on rigid ground, as far as it can be foretold.
+pub fn on_rigid_ground(model: &Assembled, record: &Record) -> Reference {
+    Reference::new(model, record, FORETOLD, MOST_WORK).unwrap()
+}
+
+/// The same on its springs, beside it.
+pub fn answer(
+    model: &Assembled,
+    springs: &CornerSprings,
+    record: &Record,
+    reference: Reference,
+) -> ElasticAnswer {
+    ElasticAnswer::new(model, &springs.corners, record, reference, Some(MOST_WORK / 10)).unwrap()
 }

@@ -8,7 +8,7 @@ use dynamics::{
     spring::{Chain, Springs},
 };
 use frames::{
-    answer::{ElasticAnswer, Reference},
+    answer::ElasticAnswer,
     assembled::Assembled,
     design_forces::{ColumnForces, ForceKind, StructureForces, stiffer},
     fem::{ElasticAnalysis, ElasticStart, default_control},
@@ -22,7 +22,7 @@ use springs::elastic::{
 };
 use strong_motion::Record;
 
-use crate::common::el_centro;
+use crate::common::{answer, el_centro, on_rigid_ground};
 
 const PIER: PierSpec = PierSpec {
     height_m: 14.0,
@@ -48,8 +48,8 @@ fn forces(elements: usize, give: f64) -> StructureForces {
     let model = Assembled::new(structure).unwrap();
     let record = Record::new("El Centro", 0.01, el_centro(501)).unwrap();
     let springs = springs(&stand(&model).unwrap(), give, landing_speed(&structure), 1.0);
-    let reference = Reference::new(&model, &record).unwrap();
-    ElasticAnswer::new(&model, &springs.corners, &record, reference).unwrap().design
+    let reference = on_rigid_ground(&model, &record);
+    answer(&model, &springs, &record, reference).design
 }
 
 #[test]
@@ -157,8 +157,8 @@ fn assembled(structure: PierSpec) -> Assembled {
 fn through(model: &Assembled, accel: Vec<f64>) -> ElasticAnswer {
     let record = Record::new("made up", 0.01, accel).unwrap();
     let springs = springs(&stand(model).unwrap(), 1e-5, landing_speed(&model.structure), 1.0);
-    let reference = Reference::new(model, &record).unwrap();
-    ElasticAnswer::new(model, &springs.corners, &record, reference).unwrap()
+    let reference = on_rigid_ground(model, &record);
+    answer(model, &springs, &record, reference)
 }
 
 /// A ground acceleration that grows for 12 s and stays for 3 s: shear m a, moment m (a L + g u)
@@ -217,7 +217,7 @@ fn a_landing_gives_the_column_the_axial_force_of_a_mass_that_is_stopped_by_its_s
         (0..samples).map(push).collect()
     };
     let record = Record::new("made up", 0.01, pushed(400)).unwrap();
-    let reference = Reference::new(&model, &record).unwrap();
+    let reference = on_rigid_ground(&model, &record);
     let first = reference.history.landings().next().unwrap();
     let [before, after] =
         [0, 1].map(|k| Base::Footing(0).rotation(&model.frame, first.velocity[k].as_slice()).abs());
@@ -255,8 +255,10 @@ fn hold_forces_on_other_motions(column_mass_kg: f64, elements: Option<usize>) {
     let stiff = stiffer(&stiffer(&tuned.springs.corners));
     let body = structure.body();
     let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
-    let trials = (0..8)
-        .filter_map(|i| ElasticTrial::shaken(&model, &synthetic::record(77, i, p, alpha)).trial());
+    let trials = (0..8).filter_map(|i| {
+        ElasticTrial::shaken(&model, &synthetic::record(77, i, p, alpha), &Effort::unbounded())
+            .trial()
+    });
     let peaks = |trial: &ElasticTrial, springs: &[Springs<Chain>]| {
         let parts = forces.parts(trial.dt);
         forces.peaks(&trial.follow(&model, springs, default_control(), parts).unwrap())

@@ -4,7 +4,7 @@ use cases::{Asked, Yardstick};
 use dynamics::{effort::Effort, fem::Control};
 use frames::{
     Mechanics,
-    answer::{ElasticAnswer, Reference},
+    answer::Reference,
     assembled::{Assembled, errors as sway_errors},
     beam::BeamSection,
     fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
@@ -26,7 +26,7 @@ use springs::elastic::{
 };
 use strong_motion::Record;
 
-use crate::common::{MODERATE, Numbers, el_centro, nrmse, pier, springs};
+use crate::common::{MODERATE, Numbers, answer, el_centro, nrmse, on_rigid_ground, pier, springs};
 
 fn tuned_for(
     model: &Assembled,
@@ -182,8 +182,10 @@ fn legs_of_any_stiffness_follow_the_reference() {
         let (alpha, landing) = (structure.body().alpha(), landing_speed(&structure));
         let model = Assembled::new(structure).unwrap();
         let springs = springs_of_design(&stand(&model).unwrap(), 1e-5, landing, 1.0);
-        let trial = ElasticTrial::released(&model, lean * alpha, 0.0125, 9.0).trial().unwrap();
-        let judged = trial.judge(&model, &springs, None, Control::search());
+        let effort = Effort::unbounded();
+        let trial =
+            ElasticTrial::released(&model, lean * alpha, (0.0125, 9.0), &effort).trial().unwrap();
+        let judged = trial.judge(&model, &springs, None, (Control::search(), &effort));
         let [rotation, drift] = judged.errors;
         let touches = judged.touches as f64 / trial.landings as f64;
         println!(
@@ -225,7 +227,7 @@ const PIER: PierSpec = PierSpec {
 fn springs_are_stiffened_until_they_follow_the_record_to_its_end() {
     let model = Assembled::new(ElasticStructure::Pier(PIER).checked().unwrap()).unwrap();
     let record = Record::new("El Centro", 0.01, el_centro(2001)).unwrap();
-    let reference = Reference::new(&model, &record).unwrap();
+    let reference = on_rigid_ground(&model, &record);
     let foretold = reference.foretold;
     assert!((1200..1400).contains(&foretold), "{foretold}");
     let accuracy = 0.002;
@@ -234,7 +236,7 @@ fn springs_are_stiffened_until_they_follow_the_record_to_its_end() {
     assert!(tuned.reached, "{tuned:?}");
     let reference = tuned.reference.unwrap();
     assert_eq!((reference.foretold, reference.followed), (foretold, record.len()));
-    let answer = ElasticAnswer::new(&model, &tuned.springs.corners, &record, reference).unwrap();
+    let answer = answer(&model, &tuned.springs, &record, reference);
     let [rotation, drift] = answer.errors;
     assert!(
         answer.compared.whole() && rotation <= accuracy && drift <= 5.0 * accuracy,
@@ -342,7 +344,7 @@ fn histories_on_stiff_springs_get_to_their_end() {
     .unwrap();
     let model = Assembled::new(structure).unwrap();
     let standing = stand(&model).unwrap();
-    let suite = ElasticSuite::new(model, None);
+    let suite = ElasticSuite::new(model, None, &Effort::unbounded());
     for k in [0.0061, 0.0083] {
         let motions =
             suite.measure(&with_k(&standing, 1e-6, k), Control::search()).motions.unwrap();

@@ -1,7 +1,6 @@
 //! Forces at the ends of steps: of columns without mass, tendons and dampers.
 
 use frames::{
-    answer::{ElasticAnswer, Reference},
     assembled::Assembled,
     beam::BeamForces,
     design_forces::ForceKind,
@@ -11,7 +10,7 @@ use rocking::members::{Damper, Members, Tendon};
 use springs::elastic::{design::springs, landing_speed, stand};
 use strong_motion::Record;
 
-use crate::common::el_centro;
+use crate::common::{answer, el_centro, on_rigid_ground};
 
 /// Of a column without mass every force is that of a step: no less than at any sample, up to any
 /// time; what acts at that step has it in its own place. With a tendon: T0 + k (length - height) of
@@ -46,8 +45,8 @@ fn forces_of_a_column_without_mass_are_those_of_steps() {
         [Assembled::new(structure).unwrap(), Assembled::with_members(structure, members).unwrap()]
     {
         let springs = springs(&stand(&model).unwrap(), 1e-5, landing_speed(&structure), 1.0);
-        let reference = Reference::new(&model, &record).unwrap();
-        let answer = ElasticAnswer::new(&model, &springs.corners, &record, reference).unwrap();
+        let reference = on_rigid_ground(&model, &record);
+        let answer = answer(&model, &springs, &record, reference);
         let (design, fem) = (&answer.design, &answer.histories.fem);
         let sampled =
             |of: fn(&BeamForces) -> f64| fem.demands.iter().map(move |d| of(&d.bearings[0]));
