@@ -4,21 +4,22 @@
 mod forces;
 mod friction;
 mod integrator;
-mod members;
 mod motions;
 mod statics;
 
 use std::f64::consts::TAU;
 
-use nalgebra::SMatrix;
-use num_complex::Complex;
+use nalgebra::{ComplexField, SMatrix};
 
 use super::{
     model::{Contact, Foot, Model, N, State, TH, Vector},
     newton::MatrixNumber,
 };
 use crate::spring::{Chain, Design, Springs};
-use rocking::structure::{Body, Structure};
+use rocking::{
+    members::{Damper, Members, Tendon},
+    structure::{Body, Structure},
+};
 
 /// The paper's structure with I_cg as a share of m R^2.
 fn body(share: f64) -> Body<f64> {
@@ -32,6 +33,20 @@ fn springs() -> Springs<Chain> {
     let vertical = Design::from_kc(0.3, 0.1, 0.75, 20.0);
     let horizontal = Design::from_kc(1.7, 0.57, 1.86, 35.0);
     Springs { vertical, horizontal }.chains(Structure::paper().mass_kg)
+}
+
+/// Bodies of these shares, each without members and with every combination of them worth testing.
+fn models(shares: &[f64]) -> Vec<(Members, Model)> {
+    let damper = Some(Damper { c: 3e6 });
+    let tendon = Some(Tendon { stiffness: 2e6, pretension: 1e6 });
+    let all = [
+        Members::default(),
+        Members { damper, ..Members::default() },
+        Members { tendon, ..Members::default() },
+        Members { damper, tendon, friction: None },
+    ];
+    let of = |share| all.map(|m| (m, Model::with_members(&body(share), &springs(), &m)));
+    shares.iter().flat_map(|&share| of(share)).collect()
 }
 
 /// All pairs of contacts, both feet anchored off centre.
@@ -107,15 +122,16 @@ fn dense<T: MatrixNumber + nalgebra::Scalar>(
 }
 
 /// The largest part of `matrix` times `solution` less `right`, over the terms that make it.
-fn largest_residual(
-    matrix: &SMatrix<Complex<f64>, N, N>,
-    solution: &[Complex<f64>; N],
-    right: &[Complex<f64>; N],
+fn largest_residual<T: ComplexField<RealField = f64> + Copy>(
+    matrix: &SMatrix<T, N, N>,
+    solution: &[T; N],
+    right: &[T; N],
 ) -> f64 {
     let of_row = |i: usize| {
         let terms = (0..N).map(|j| matrix[(i, j)] * solution[j]);
-        let scale: f64 = terms.clone().map(|t| t.norm()).sum();
-        (terms.sum::<Complex<f64>>() - right[i]).norm() / scale
+        let scale: f64 = terms.clone().map(T::modulus).sum();
+        assert!(scale > 0.0 && scale.is_finite(), "row {i}: {scale}");
+        (terms.fold(T::zero(), |sum, t| sum + t) - right[i]).modulus() / scale
     };
     (0..N).map(of_row).fold(0.0, f64::max)
 }
