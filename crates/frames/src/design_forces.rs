@@ -19,12 +19,14 @@ mod beside;
 mod check;
 mod columns;
 mod cutoff;
+mod name;
 
 use serde::{Deserialize, Serialize};
 
 pub use beside::{ForcesTogether, HeldForce, MOST_CHANGE, OtherForces};
 pub use columns::{COMPARED, ColumnForces, ColumnPeaks, stiffer};
 pub use cutoff::Cutoff;
+pub use name::ForceName;
 
 use super::{
     assembled::Assembled, fem::ElasticHistory, frame::EquilibriumError, peaks::StructurePeaks,
@@ -37,65 +39,6 @@ use dynamics::{
 };
 use rocking::motion::TimedPeak;
 use strong_motion::Record;
-
-/// What a force is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum ForceKind {
-    /// Across a column's axis, where along the column it is largest, or a leg's (N).
-    ColumnShear,
-    /// At a column's base (N m).
-    ColumnBaseMoment,
-    /// At a column's top, where it meets a beam (N m).
-    ColumnTopMoment,
-    /// In a column at its base, or in a leg; tension positive (N).
-    Axial,
-    /// The largest tension there (N).
-    AxialTension,
-    /// Horizontal force of the ground on all corners: footings' inertia is in it (N).
-    SoleShear,
-    /// Vertical force of the ground on all corners, upwards (N).
-    SoleVertical,
-    /// Of the tendon that pulls most (N).
-    Tendon,
-    /// Of the damper with the largest force on the structure, upwards (N).
-    Damper,
-}
-
-impl ForceKind {
-    /// All of them, in the order in which they are told.
-    pub(crate) const ALL: [Self; 9] = [
-        Self::ColumnShear,
-        Self::ColumnBaseMoment,
-        Self::ColumnTopMoment,
-        Self::Axial,
-        Self::AxialTension,
-        Self::SoleShear,
-        Self::SoleVertical,
-        Self::Tendon,
-        Self::Damper,
-    ];
-
-    /// In words.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::ColumnShear => "column shear",
-            Self::ColumnBaseMoment => "moment at column base",
-            Self::ColumnTopMoment => "moment at column top",
-            Self::Axial => "axial force",
-            Self::AxialTension => "tension",
-            Self::SoleShear => "shear at the sole, footing included",
-            Self::SoleVertical => "vertical force at the sole, footing included",
-            Self::Tendon => "tendon force",
-            Self::Damper => "damper force",
-        }
-    }
-
-    /// Its unit.
-    pub fn unit(self) -> &'static str {
-        if matches!(self, Self::ColumnBaseMoment | Self::ColumnTopMoment) { "N m" } else { "N" }
-    }
-}
 
 /// A peak with its sign, and when it is (s).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -117,7 +60,7 @@ impl From<TimedPeak> for ForcePeak {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StructureForce {
     /// Which.
-    pub kind: ForceKind,
+    pub kind: ForceName,
     /// The force to design for, below the cutoff, with its sign [N, N m]; none if it does not hold.
     pub value: Option<f64>,
     /// When (s).
@@ -175,13 +118,13 @@ pub struct StructureForces {
     /// Below which column forces are given, and what it keeps; none of columns without mass.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cutoff: Option<Cutoff>,
-    /// In the order of `ForceKind::ALL`, less what does not apply.
+    /// In the order of `ForceName::MEASURED`, less what does not apply.
     pub forces: Vec<StructureForce>,
 }
 
 impl StructureForces {
     /// One of them.
-    pub fn get(&self, kind: ForceKind) -> Option<&StructureForce> {
+    pub fn get(&self, kind: ForceName) -> Option<&StructureForce> {
         self.forces.iter().find(|force| force.kind == kind)
     }
 
@@ -223,10 +166,10 @@ impl StructureForces {
             };
             let finer = peaks_of(|variants| variants.doubled.as_ref());
             let [softer, stiffer] = [peaks_of(|v| Some(&v.softer)), peaks_of(|v| Some(&v.stiffer))];
-            let value = |peaks: &ForcePeaks, kind: ForceKind| {
+            let value = |peaks: &ForcePeaks, kind: ForceName| {
                 peaks.get(kind).map(|peak| peak.filtered.value)
             };
-            let force = |kind: ForceKind| {
+            let force = |kind: ForceName| {
                 let peak = peaks.get(kind)?;
                 let found = peak.filtered.value;
                 let others = OtherForces {
@@ -259,9 +202,9 @@ impl StructureForces {
             };
             // a leg is hinged at its foot
             let legs = matches!(assembled.structure, ElasticStructure::AFrame(_));
-            let moments = [ForceKind::ColumnBaseMoment, ForceKind::ColumnTopMoment];
-            let applies = |kind: &ForceKind| !(legs && moments.contains(kind));
-            ForceKind::ALL.into_iter().filter(applies).filter_map(force).collect()
+            let moments = [ForceName::ColumnBaseMoment, ForceName::ColumnTopMoment];
+            let applies = |kind: &ForceName| !(legs && moments.contains(kind));
+            ForceName::MEASURED.into_iter().filter(applies).filter_map(force).collect()
         };
         let mut forces = over((record.len().saturating_sub(1)) as f64 * record.dt);
         // beyond what can be foretold motions part, and with them their peaks
@@ -286,7 +229,7 @@ pub struct OtherMotion {
     /// When it overturns (s).
     pub overturns: Option<f64>,
     /// Largest forces [N, N m].
-    pub forces: Vec<(ForceKind, f64)>,
+    pub forces: Vec<(ForceName, f64)>,
 }
 
 /// A structure on given springs through another record; nothing where its history ends early.
@@ -303,7 +246,7 @@ pub fn through(
         return Ok(None);
     }
     let peaks = ForcePeaks::of(&history, Cutoff::of(&assembled.structure).as_ref(), f64::INFINITY);
-    let forces = ForceKind::ALL
+    let forces = ForceName::MEASURED
         .into_iter()
         .filter_map(|kind| Some((kind, peaks.get(kind)?.filtered.value)))
         .collect();
@@ -326,23 +269,16 @@ fn parts_below(cutoff: Option<&Cutoff>, dt: f64) -> usize {
 }
 
 /// The rigid body's: its shear across the column is its moment over the column's length.
-fn rigid_peak(rigid: &RigidForces, kind: ForceKind, dt: f64) -> Option<ForcePeak> {
+fn rigid_peak(rigid: &RigidForces, kind: ForceName, dt: f64) -> Option<ForcePeak> {
     let series = match kind {
-        ForceKind::ColumnShear => &rigid.shear,
-        ForceKind::ColumnBaseMoment => &rigid.moment,
-        ForceKind::Axial => &rigid.axial,
-        ForceKind::ColumnTopMoment
-        | ForceKind::AxialTension
-        | ForceKind::SoleShear
-        | ForceKind::SoleVertical
-        | ForceKind::Tendon
-        | ForceKind::Damper => {
-            return None;
-        }
+        ForceName::ColumnShear => &rigid.shear,
+        ForceName::ColumnBaseMoment => &rigid.moment,
+        ForceName::Axial => &rigid.axial,
+        _ => return None,
     };
     let peak = TimedPeak::of(dt, series).map(ForcePeak::from)?;
     // on the end of the column, as in the frame
-    Some(if kind == ForceKind::ColumnBaseMoment {
+    Some(if kind == ForceName::ColumnBaseMoment {
         ForcePeak { value: -peak.value, ..peak }
     } else {
         peak
@@ -356,7 +292,7 @@ mod tests {
     fn force(found: f64, over_s: f64, holds: bool) -> StructureForce {
         let others = OtherForces { found, ..OtherForces::default() };
         StructureForce {
-            kind: ForceKind::AxialTension,
+            kind: ForceName::AxialTension,
             value: holds.then_some(found),
             time_s: 3.0,
             holds,

@@ -17,7 +17,7 @@ pub use forces::design_forces;
 use frames::{
     answer::{ElasticAnswer, ElasticHistories},
     assembled::{Assembled, Sway},
-    design_forces::{ForceKind, through},
+    design_forces::through,
     ensemble::Ensemble,
     reference::{ReferenceOutcome, Stop},
     structure::ElasticStructure,
@@ -189,10 +189,10 @@ impl ElasticParts<'_> {
             without: self.peaks().springs.top_displacement_m,
             with: with.top_displacement,
         };
-        let change = |(kind, with): (ForceKind, f64)| {
+        let change = |(kind, with): (ForceName, f64)| {
             // what is withheld may matter most
             let without = self.answer.design.get(kind)?.others.found.abs();
-            let (quantity, unit) = (kind.name().to_string(), kind.unit().to_string());
+            let (quantity, unit) = (kind.words().to_string(), kind.unit().to_string());
             Some(PeakChange { quantity, unit, without, with: with.abs() })
         };
         Some(Finding::VerticalLeftOut {

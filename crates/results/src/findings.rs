@@ -7,14 +7,13 @@ use dynamics::effort::CutBy;
 
 mod advice;
 mod deck_end;
-mod force_name;
 mod message;
 mod not_done;
 mod of_steps;
 mod weight;
 
 pub use deck_end::DeckEnd;
-pub use force_name::ForceName;
+pub use frames::design_forces::ForceName;
 pub use message::{HARDLY_ROCKS, apart_words};
 pub use not_done::NotDone;
 pub use of_steps::{NotToBeUsed, ProgramAdvice, ProgramFault};

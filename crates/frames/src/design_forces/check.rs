@@ -1,6 +1,6 @@
 //! The same motion with the elements doubled and on other springs, and peaks of forces.
 
-use super::{Cutoff, ForceKind, ForcePeak, cutoff::SOLE_HZ, parts};
+use super::{Cutoff, ForceName, ForcePeak, cutoff::SOLE_HZ, parts};
 use crate::{
     assembled::Assembled,
     design_forces::ForcesTogether,
@@ -86,7 +86,7 @@ pub(super) fn scaled(springs: &[Springs<Chain>], factor: f64) -> Vec<Springs<Cha
 /// A force's peaks in one history.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PeakOfForce {
-    kind: ForceKind,
+    kind: ForceName,
     pub filtered: ForcePeak,
     pub raw: f64,
     pub cutoff_hz: Option<f64>,
@@ -114,10 +114,10 @@ impl ForcePeaks {
             peaks.into_iter().for_each(|peak| keep_larger(&mut out, peak));
         }
         let of_soles = of_columns.unwrap_or(SOLE_HZ);
-        for (sole, kind) in fine.sole.iter().zip([ForceKind::SoleShear, ForceKind::SoleVertical]) {
+        for (sole, kind) in fine.sole.iter().zip([ForceName::SoleShear, ForceName::SoleVertical]) {
             out.extend(series.peak(kind, sole, &series.smooth(sole, of_soles), of_soles));
         }
-        for (k, kind) in [ForceKind::Tendon, ForceKind::Damper].into_iter().enumerate() {
+        for (k, kind) in [ForceName::Tendon, ForceName::Damper].into_iter().enumerate() {
             let most = |until: f64| fine.members.largest(k, until);
             let peak = most(over).zip(most(f64::INFINITY)).map(|(found, all)| PeakOfForce {
                 kind,
@@ -132,7 +132,7 @@ impl ForcePeaks {
         Self(out)
     }
 
-    pub(crate) fn get(&self, kind: ForceKind) -> Option<PeakOfForce> {
+    pub(crate) fn get(&self, kind: ForceName) -> Option<PeakOfForce> {
         self.0.iter().find(|peak| peak.kind == kind).copied()
     }
 }
@@ -160,7 +160,7 @@ impl Series {
     /// Of one force, whose series below its cutoff is `smooth`.
     fn peak(
         &self,
-        kind: ForceKind,
+        kind: ForceName,
         series: &FineSeries,
         smooth: &[f64],
         cutoff_hz: f64,
@@ -182,12 +182,12 @@ impl Series {
         let of = |kind, k: usize| self.peak(kind, &column.base[k], &base[k], cutoff_hz);
         let top = &column.top_moment;
         let at_top =
-            self.peak(ForceKind::ColumnTopMoment, top, &self.smooth(top, cutoff_hz), cutoff_hz);
-        let at_base = of(ForceKind::ColumnShear, 0)
+            self.peak(ForceName::ColumnTopMoment, top, &self.smooth(top, cutoff_hz), cutoff_hz);
+        let at_base = of(ForceName::ColumnShear, 0)
             .map(|peak| PeakOfForce { above_base_m: Some(0.0), ..peak });
         let above = column.above.iter().zip(&column.heights).filter_map(|(series, height)| {
             let peak = self.peak(
-                ForceKind::ColumnShear,
+                ForceName::ColumnShear,
                 series,
                 &self.smooth(series, cutoff_hz),
                 cutoff_hz,
@@ -204,7 +204,7 @@ impl Series {
             [base_axial].into_iter().chain(above_axial).filter_map(|(series, smooth, height)| {
                 let pulled: Vec<f64> = smooth.iter().map(|axial| axial.max(0.0)).collect();
                 Some(PeakOfForce {
-                    kind: ForceKind::AxialTension,
+                    kind: ForceName::AxialTension,
                     filtered: self.largest(&pulled).filter(|peak| peak.value > 0.0)?,
                     raw: series.most,
                     cutoff_hz: Some(cutoff_hz),
@@ -214,8 +214,8 @@ impl Series {
             });
         let peaks = at_base.into_iter().chain(above);
         let peaks = peaks
-            .chain(of(ForceKind::Axial, 1))
-            .chain(of(ForceKind::ColumnBaseMoment, 2))
+            .chain(of(ForceName::Axial, 1))
+            .chain(of(ForceName::ColumnBaseMoment, 2))
             .chain(at_top);
         let peaks = peaks.chain(tension);
         let together = |peak: PeakOfForce| {
@@ -240,7 +240,7 @@ impl Series {
 /// what its base bears there.
 fn of_massless(column: &RunningPeaks<4>, over_s: f64) -> Vec<PeakOfForce> {
     let peak =
-        |kind: ForceKind, k: usize, found: Option<StepForces<4>>, raw: Option<StepForces<4>>| {
+        |kind: ForceName, k: usize, found: Option<StepForces<4>>, raw: Option<StepForces<4>>| {
             let StepForces { time, forces } = found?;
             let [column_shear_n, axial_n, column_base_moment_nm, _] = forces;
             Some(PeakOfForce {
@@ -254,21 +254,21 @@ fn of_massless(column: &RunningPeaks<4>, over_s: f64) -> Vec<PeakOfForce> {
                     column_base_moment_nm,
                     apex_moment_nm: None,
                 }),
-                above_base_m: (kind == ForceKind::ColumnShear).then_some(0.0),
+                above_base_m: (kind == ForceName::ColumnShear).then_some(0.0),
             })
         };
     let kinds = [
-        ForceKind::ColumnShear,
-        ForceKind::Axial,
-        ForceKind::ColumnBaseMoment,
-        ForceKind::ColumnTopMoment,
+        ForceName::ColumnShear,
+        ForceName::Axial,
+        ForceName::ColumnBaseMoment,
+        ForceName::ColumnTopMoment,
     ];
     let all = kinds.into_iter().enumerate().filter_map(|(k, kind)| {
         peak(kind, k, column.largest(k, over_s), column.largest(k, f64::INFINITY))
     });
     // of a column that is always pressed there is none
     let tension =
-        peak(ForceKind::AxialTension, 1, column.most(1, over_s), column.most(1, f64::INFINITY));
+        peak(ForceName::AxialTension, 1, column.most(1, over_s), column.most(1, f64::INFINITY));
     all.chain(tension).collect()
 }
 

@@ -10,13 +10,13 @@
 //! The other is the same structure on springs of 4 Omega_n (`stiffer`): on rigid ground a landing
 //! is an impulse in no time, of which the reference keeps no means.
 
-use super::{Cutoff, ForceKind, check, parts_below};
+use super::{Cutoff, ForceName, check, parts_below};
 use crate::{fem::ElasticHistory, structure::ElasticStructure};
 use dynamics::spring::{Chain, Springs};
 
 /// What is compared, in this order.
-pub const COMPARED: [ForceKind; 3] =
-    [ForceKind::ColumnShear, ForceKind::ColumnBaseMoment, ForceKind::Axial];
+pub const COMPARED: [ForceName; 3] =
+    [ForceName::ColumnShear, ForceName::ColumnBaseMoment, ForceName::Axial];
 
 /// How forces of a structure's columns are taken from its histories.
 #[derive(Clone, Debug)]
@@ -49,9 +49,9 @@ impl ColumnForces {
     /// Peaks of a history whose forces are finely sampled.
     pub fn peaks(&self, history: &ElasticHistory) -> ColumnPeaks {
         let all = check::ForcePeaks::of(history, self.cutoff.as_ref(), f64::INFINITY);
-        let applies = |kind: ForceKind| !(self.legs && kind == ForceKind::ColumnBaseMoment);
+        let applies = |kind: ForceName| !(self.legs && kind == ForceName::ColumnBaseMoment);
         let peak =
-            |kind: ForceKind| Some(all.get(kind).filter(|_| applies(kind))?.filtered.value.abs());
+            |kind: ForceName| Some(all.get(kind).filter(|_| applies(kind))?.filtered.value.abs());
         ColumnPeaks(COMPARED.map(peak))
     }
 }

@@ -2,7 +2,7 @@
 
 use ::results::{DesignForce, DesignForces};
 use frames::{
-    design_forces::{ForceKind, ForcesTogether, StructureForces},
+    design_forces::{ForceName, ForcesTogether, StructureForces},
     structure::ElasticStructure,
 };
 
@@ -20,7 +20,7 @@ pub fn design_forces(structure: &ElasticStructure, of: &StructureForces) -> Desi
         ElasticStructure::AFrame(frame) => Some(frame.leg_length()),
         ElasticStructure::Pier(_) | ElasticStructure::Frame(_) => None,
     };
-    let force = |kind: ForceKind| {
+    let force = |kind: ForceName| {
         let force = of.get(kind)?;
         Some(DesignForce {
             value: force.value,
@@ -43,27 +43,27 @@ pub fn design_forces(structure: &ElasticStructure, of: &StructureForces) -> Desi
             others: Some(force.others),
         })
     };
-    let column_shear_n = force(ForceKind::ColumnShear);
-    let axial_n = force(ForceKind::Axial);
+    let column_shear_n = force(ForceName::ColumnShear);
+    let axial_n = force(ForceName::Axial);
     let found = |force: DesignForce| force.others.map_or(0.0, |others| others.found.abs());
     let most = axial_n.map_or(0.0, found);
     let axial_tension_n =
-        force(ForceKind::AxialTension).filter(|tension| found(*tension) > LEAST_TENSION * most);
-    let base_moment = force(ForceKind::ColumnBaseMoment).map_or(0.0, found);
-    let column_top_moment_nm = force(ForceKind::ColumnTopMoment)
+        force(ForceName::AxialTension).filter(|tension| found(*tension) > LEAST_TENSION * most);
+    let base_moment = force(ForceName::ColumnBaseMoment).map_or(0.0, found);
+    let column_top_moment_nm = force(ForceName::ColumnTopMoment)
         .filter(|top| found(*top) > LEAST_TOP_MOMENT * base_moment);
     let apex_moment_nm = column_shear_n.zip(leg).map(|(shear, leg)| shear.times(leg));
     DesignForces {
         below_hz: of.cutoff.as_ref().map(|cutoff| cutoff.cutoff_hz),
         column_shear_n,
-        column_base_moment_nm: force(ForceKind::ColumnBaseMoment),
+        column_base_moment_nm: force(ForceName::ColumnBaseMoment),
         column_top_moment_nm,
         axial_n,
         axial_tension_n,
         apex_moment_nm,
-        sole_shear_n: force(ForceKind::SoleShear),
-        sole_vertical_n: force(ForceKind::SoleVertical),
-        tendon_n: force(ForceKind::Tendon),
-        damper_n: force(ForceKind::Damper),
+        sole_shear_n: force(ForceName::SoleShear),
+        sole_vertical_n: force(ForceName::SoleVertical),
+        tendon_n: force(ForceName::Tendon),
+        damper_n: force(ForceName::Damper),
     }
 }

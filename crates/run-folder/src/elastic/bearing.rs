@@ -4,7 +4,7 @@ use frames::{
     answer::ElasticAnswer,
     assembled::Assembled,
     beam::BeamForces,
-    design_forces::ForceKind,
+    design_forces::ForceName,
     fem::{ElasticHistory, FrameDemand, resolves},
     structure::ElasticStructure,
 };
@@ -73,14 +73,14 @@ fn quantities(assembled: &Assembled, answer: &ElasticAnswer) -> Vec<ForceQuantit
     let [shear, fixed] = both(&|beam, _| beam.shear);
     let body = rigid.map_or(Vec::new(), |rigid| rigid.shear.clone());
     let mut all = vec![ForceQuantity {
-        name: ForceKind::ColumnShear.name(),
+        name: ForceName::ColumnShear.words(),
         unit: "N",
         series: [shear, fixed, body],
     }];
     let [axial, fixed] = both(&|beam, _| beam.axial);
     let body = rigid.map_or(Vec::new(), |rigid| rigid.axial.clone());
     all.push(ForceQuantity {
-        name: ForceKind::Axial.name(),
+        name: ForceName::Axial.words(),
         unit: "N",
         series: [axial, fixed, body],
     });
@@ -89,7 +89,7 @@ fn quantities(assembled: &Assembled, answer: &ElasticAnswer) -> Vec<ForceQuantit
         let [moment, fixed] = both(&|beam, end| beam.moments[end]);
         let body = rigid.map_or(Vec::new(), |rigid| rigid.moment.iter().map(|x| -x).collect());
         all.push(ForceQuantity {
-            name: ForceKind::ColumnBaseMoment.name(),
+            name: ForceName::ColumnBaseMoment.words(),
             unit: "N m",
             series: [moment, fixed, body],
         });

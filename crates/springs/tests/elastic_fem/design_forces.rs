@@ -10,7 +10,7 @@ use dynamics::{
 use frames::{
     answer::ElasticAnswer,
     assembled::Assembled,
-    design_forces::{ColumnForces, ForceKind, StructureForces, stiffer},
+    design_forces::{ColumnForces, ForceName, StructureForces, stiffer},
     fem::{ElasticAnalysis, ElasticStart, default_control},
     frame::Base,
     structure::{ElasticStructure, PierSpec},
@@ -62,7 +62,7 @@ fn a_pier_s_design_forces_hold_and_stay_with_the_elements_doubled_and_on_softer_
     );
     // Omega_n^2 goes as 1/give
     for other in [forces(8, give), forces(4, 16.0 * give)] {
-        for kind in [ForceKind::ColumnShear, ForceKind::ColumnBaseMoment, ForceKind::Axial] {
+        for kind in [ForceName::ColumnShear, ForceName::ColumnBaseMoment, ForceName::Axial] {
             let [a, b] = [&four, &other].map(|forces| *forces.get(kind).unwrap());
             assert!(a.holds && b.holds && a.others.change() < MOST_CHANGE, "{a:?} {b:?}");
             let change = (b.others.found.abs() / a.others.found.abs() - 1.0).abs();
@@ -125,7 +125,7 @@ fn shear_is_sampled_along_the_column_and_is_what_is_above_times_the_acceleration
     assert!(peaks.parts(record.dt) > 1);
     let push = |i: i32| a * (f64::from(i) / 1500.0).min(1.0);
     let shear =
-        *through(&model, (0..2000).map(push).collect()).design.get(ForceKind::ColumnShear).unwrap();
+        *through(&model, (0..2000).map(push).collect()).design.get(ForceName::ColumnShear).unwrap();
     assert_eq!(shear.above_base_m, Some(0.0), "{shear:?}");
 }
 
@@ -183,11 +183,11 @@ fn a_slow_push_gives_the_forces_of_statics_and_lifts_where_moments_about_the_cor
     );
     let a = 0.98 * lifts;
     let forces = [
-        (ForceKind::ColumnShear, m * a),
-        (ForceKind::ColumnBaseMoment, m * (a * LENGTH + GRAVITY * a / (omega * omega))),
-        (ForceKind::Axial, -m * GRAVITY),
-        (ForceKind::SoleShear, (m + footing) * a),
-        (ForceKind::SoleVertical, weight),
+        (ForceName::ColumnShear, m * a),
+        (ForceName::ColumnBaseMoment, m * (a * LENGTH + GRAVITY * a / (omega * omega))),
+        (ForceName::Axial, -m * GRAVITY),
+        (ForceName::SoleShear, (m + footing) * a),
+        (ForceName::SoleVertical, weight),
     ];
     for (kind, expected) in forces {
         let force = below.design.get(kind).unwrap();
@@ -198,10 +198,10 @@ fn a_slow_push_gives_the_forces_of_statics_and_lifts_where_moments_about_the_cor
         );
     }
     // what acts with the largest shear; and nothing pulls the column
-    let with = below.design.get(ForceKind::ColumnShear).unwrap().together.unwrap();
+    let with = below.design.get(ForceName::ColumnShear).unwrap().together.unwrap();
     assert!((with.axial_n / (-m * GRAVITY) - 1.0).abs() < 5e-3, "{with:?}");
     assert!((with.column_base_moment_nm.abs() / forces[1].1 - 1.0).abs() < 5e-3, "{with:?}");
-    assert!(below.design.get(ForceKind::AxialTension).is_none());
+    assert!(below.design.get(ForceName::AxialTension).is_none());
 }
 
 /// A footing lands flat and stops; the mass above, which came down at dv = b |theta'|, is stopped
@@ -225,7 +225,7 @@ fn a_landing_gives_the_column_the_axial_force_of_a_mass_that_is_stopped_by_its_s
     let expected = m * GRAVITY + 2.0 * before * (AXIAL_STIFFNESS * m).sqrt();
     // a quarter of the axial period, 14 ms, is over by then
     let design = through(&model, pushed((1e2 * first.time) as usize + 6)).design;
-    let axial = design.get(ForceKind::Axial).unwrap();
+    let axial = design.get(ForceName::Axial).unwrap();
     let value = axial.value.unwrap_or_else(|| panic!("withheld: {axial:?}"));
     assert!(
         (-value / expected - 1.0).abs() < 0.03,
@@ -332,9 +332,9 @@ fn a_pier_s_design_forces_are_those_of_an_independent_program() {
     };
     let answer = through(&assembled(pier), el_centro(2001));
     for (kind, expected) in [
-        (ForceKind::ColumnShear, 1.7032e6),
-        (ForceKind::ColumnBaseMoment, 17.972e6),
-        (ForceKind::Axial, 20.677e6),
+        (ForceName::ColumnShear, 1.7032e6),
+        (ForceName::ColumnBaseMoment, 17.972e6),
+        (ForceName::Axial, 20.677e6),
     ] {
         let force = answer.design.get(kind).unwrap();
         let value = force.value.unwrap_or_else(|| panic!("{kind:?} withheld: {force:?}"));

@@ -3,7 +3,7 @@
 use frames::{
     assembled::Assembled,
     beam::BeamForces,
-    design_forces::ForceKind,
+    design_forces::ForceName,
     structure::{ElasticStructure, PierSpec},
 };
 use rocking::members::{Damper, Members, Tendon};
@@ -50,28 +50,28 @@ fn forces_of_a_column_without_mass_are_those_of_steps() {
         let (design, fem) = (&answer.design, &answer.histories.fem);
         let sampled =
             |of: fn(&BeamForces) -> f64| fem.demands.iter().map(move |d| of(&d.bearings[0]));
-        let axial = design.get(ForceKind::Axial).unwrap();
+        let axial = design.get(ForceName::Axial).unwrap();
         let together = axial.together.unwrap();
         assert_eq!(together.axial_n, axial.others.found);
         let least = sampled(|b| b.axial).fold(0.0, f64::min);
         let worst = fem.worst.iter().map(|d| d.bearings[0].axial).fold(0.0, f64::min);
         assert!(axial.others.found <= least, "{axial:?} {least}");
         assert!((axial.others.found / worst - 1.0).abs() < 1e-9, "{axial:?} {worst}");
-        let shear = design.get(ForceKind::ColumnShear).unwrap();
+        let shear = design.get(ForceName::ColumnShear).unwrap();
         assert_eq!(shear.together.unwrap().column_shear_n, shear.others.found);
         let most = sampled(|b| b.axial).fold(0.0, f64::max);
-        let tension = design.get(ForceKind::AxialTension).map_or(0.0, |t| t.others.found);
+        let tension = design.get(ForceName::AxialTension).map_or(0.0, |t| t.others.found);
         assert!(tension >= most, "{tension} {most}");
-        let Some(tendon) = design.get(ForceKind::Tendon) else {
+        let Some(tendon) = design.get(ForceName::Tendon) else {
             assert!(model.members.tendon.is_none() && tension > 0.0);
-            assert!(design.get(ForceKind::Damper).is_none());
+            assert!(design.get(ForceName::Damper).is_none());
             continue;
         };
         let pull = fem.demands.iter().map(|d| d.tendons[0]).fold(0.0, f64::max);
         let top = fem.q.iter().map(|q| model.frame.tensions(q.as_slice())[0]).fold(0.0, f64::max);
         assert!((pull / top - 1.0).abs() < 1e-12 && tendon.others.found >= pull);
         assert!((tendon.others.found / pull - 1.0).abs() < 5e-3, "{tendon:?} {pull}");
-        let damper = design.get(ForceKind::Damper).unwrap().others.found;
+        let damper = design.get(ForceName::Damper).unwrap().others.found;
         let sampled = fem.demands.iter().flat_map(|d| &d.dampers);
         let most = sampled.fold(0.0, |most: f64, force| most.max(force.abs()));
         assert!(damper.abs() >= most && damper.abs() < 1.3 * most, "{damper} {most}");

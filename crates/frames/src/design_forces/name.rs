@@ -6,19 +6,42 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ForceName {
+    /// Across a column's axis, where along the column it is largest, or a leg's (N).
     ColumnShear,
+    /// At a column's base (N m).
     ColumnBaseMoment,
+    /// At a column's top, where it meets a beam (N m).
     ColumnTopMoment,
+    /// In a column at its base, or in a leg; tension positive (N).
     Axial,
+    /// The largest tension there (N).
     AxialTension,
+    /// Where legs meet (N m).
     ApexMoment,
+    /// Horizontal force of the ground on all corners: footings' inertia is in it (N).
     SoleShear,
+    /// Vertical force of the ground on all corners, upwards (N).
     SoleVertical,
+    /// Of the tendon that pulls most (N).
     Tendon,
+    /// Of the damper with the largest force on the structure, upwards (N).
     Damper,
 }
 
 impl ForceName {
+    /// Those that are taken from histories, in the order in which they are told.
+    pub(crate) const MEASURED: [Self; 9] = [
+        Self::ColumnShear,
+        Self::ColumnBaseMoment,
+        Self::ColumnTopMoment,
+        Self::Axial,
+        Self::AxialTension,
+        Self::SoleShear,
+        Self::SoleVertical,
+        Self::Tendon,
+        Self::Damper,
+    ];
+
     /// As an engineer says it.
     pub fn words(self) -> &'static str {
         match self {
