@@ -187,16 +187,7 @@ fn what_cannot_be_is_refused_in_one_line_before_anything_is_written() {
     let folder = tempfile::tempdir().unwrap();
     for (from, to, said) in [
         ("mass_kg = 600e3", "mass_kg = -600e3", "mass_kg"),
-        ("mass_kg = 600e3", "mass_kg = nan", "mass_kg"),
-        ("width_m = 4.0", "width_m = 400.0", "slenderness"),
-        (
-            "frequency_hz = 2.0",
-            "frequency_hz = 2.0\nei_nm2 = 1e9",
-            "ei_nm2 and frequency_hz are both given",
-        ),
-        ("frequency_hz = 2.0", "ei_nm2 = 1e3", "buckles"),
         ("frequency_hz", "frequenzy_hz", "did you mean \"frequency_hz\""),
-        ("damping_ratio = 0.02", "damping_ratio = 2.0", "damping_ratio"),
         ("footing_mass_kg = 60e3\n", "", "footing_mass_kg"),
         ("kind = \"pier\"", "kind = \"tower\"", "pier"),
         ("[record]", "[damper]\nc_ns_per_m = -1.0\n[record]", "damper.c_ns_per_m is -1"),

@@ -90,14 +90,6 @@ fn a_structure_too_stocky_to_rock() {
 }
 
 #[test]
-fn a_height_that_is_not_a_number() {
-    run_case(
-        &STRUCTURE.replace("height_m = 1.0", "height_m = nan"),
-        &["case.toml", "height_m is NaN"],
-    );
-}
-
-#[test]
 fn an_unknown_key() {
     run_case(
         &format!("{STRUCTURE}[tuning]\nmax_omega = 3.0\n"),
@@ -128,11 +120,6 @@ fn an_empty_target_band() {
 fn the_papers_procedure_needs_a_record_that_lifts_the_structure() {
     let case = format!("{STRUCTURE}[record]\nscale = 0.1\n[tuning]\nobjective = \"arr\"\n");
     run_case(&case, &["never lifts", "--scale", "leave objective = \"arr\" out"]);
-}
-
-#[test]
-fn a_duration_of_zero() {
-    refuses(&[], &["run", "--duration", "0", "--out", "results"], &["--duration is 0"]);
 }
 
 #[test]

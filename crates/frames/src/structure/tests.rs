@@ -82,7 +82,7 @@ fn what_no_structure_can_be_is_refused_in_one_line() {
         ("600e3", "1e300", "mass_kg"),
         ("600e3", "nan", "mass_kg"),
         ("width_m = 4.0", "width_m = 90.0", "slenderness"),
-        ("damping_ratio = 0.02", "damping_ratio = 2.0", "damping"),
+        ("damping_ratio = 0.02", "damping_ratio = 2.0", "damping_ratio"),
         (
             "frequency_hz = 2.0",
             "frequency_hz = 2.0\nei_nm2 = 1e10",
