@@ -1,6 +1,9 @@
 //! What the program `tune` does: one file a subcommand, the words of its options included.
 
-use std::process::ExitCode;
+use std::{
+    fmt::{Debug, Display},
+    process::ExitCode,
+};
 
 use clap::{Parser, Subcommand};
 use thiserror::Error;
@@ -116,6 +119,18 @@ pub enum CommandError {
     /// What was checked is not so: exit code 1.
     #[error("{0}")]
     Failed(String),
+}
+
+impl CommandError {
+    /// An option whose value cannot be, and what to give.
+    fn option(option: &'static str, value: impl Debug, remedy: &'static str) -> Self {
+        Self::Option { option, value: format!("{value:?}"), remedy }
+    }
+
+    /// Another error in its own words.
+    fn result(e: impl Display) -> Self {
+        Self::Result(e.to_string())
+    }
 }
 
 /// Parse the arguments and run: exit code 0, or with one line on stderr 2, or 1 where a check

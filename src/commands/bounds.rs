@@ -39,13 +39,8 @@ pub struct EffortOptions {
 impl EffortOptions {
     /// The effort of a job whose default is so many units, watched for ^C from now on.
     pub fn of(&self, units: u64) -> Result<Effort, CommandError> {
-        let refused = |option, value: f64, remedy| CommandError::Option {
-            option,
-            value: format!("{value:?}"),
-            remedy,
-        };
         if !(self.work > 0.0 && self.work.is_finite()) {
-            return Err(refused(
+            return Err(CommandError::option(
                 "work",
                 self.work,
                 "give a number above zero: 1 is the default, 10 ten times as much",
@@ -53,7 +48,7 @@ impl EffortOptions {
         }
         let limit = |seconds: f64| match Duration::try_from_secs_f64(seconds) {
             Ok(limit) if seconds > 0.0 => Ok(limit),
-            _ => Err(refused(
+            _ => Err(CommandError::option(
                 "time-limit",
                 seconds,
                 "give seconds above zero, or leave it out for none",

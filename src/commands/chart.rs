@@ -73,7 +73,7 @@ pub fn run(o: &ChartOptions) -> Result<(), CommandError> {
         rows.len(),
         o.alpha
     ))?;
-    terminal::stderr(format_args!("written to {}", terminal::shown(&o.out)));
+    terminal::written(&o.out);
     Ok(())
 }
 

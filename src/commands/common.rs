@@ -152,27 +152,20 @@ impl RecordOptions {
     }
 
     fn check(&self) -> Result<(), CommandError> {
-        let refuse = |option, value: f64, remedy| {
-            let value = format!("{value:?}");
-            Err(CommandError::Option { option, value, remedy })
-        };
-        match (self.duration, self.scale) {
-            (Some(d), _) if !(d > 0.0 && d <= LONGEST_S) => {
-                refuse("duration", d, "give seconds greater than zero, at most 1e6")
-            }
-            (_, Some(0.0)) => refuse("scale", 0.0, NO_MOTION),
+        duration(self.duration)?;
+        match self.scale {
+            Some(0.0) => Err(CommandError::option("scale", 0.0, NO_MOTION)),
             _ => Ok(()),
         }
     }
 
     fn no_file(&self) -> CommandError {
-        CommandError::Option {
-            option: "record",
-            value: "not given".into(),
-            remedy: "--dt, --units, --component, --column, --baseline and --vertical tell of a \
-                     file: name it with --record, or in \
-                     [record] of a case",
-        }
+        CommandError::option(
+            "record",
+            format_args!("not given"),
+            "--dt, --units, --component, --column, --baseline and --vertical tell of a file: name \
+             it with --record, or in [record] of a case",
+        )
     }
 
     fn scaled(&self, asked: Excitation) -> Excitation {
@@ -200,18 +193,27 @@ impl GroundOptions {
             return Ok(friction);
         }
         let remedy = "give a friction coefficient, zero or greater";
-        Err(CommandError::Option { option: "friction", value: format!("{friction:?}"), remedy })
+        Err(CommandError::option("friction", friction, remedy))
+    }
+}
+
+/// Whether a history can be this long (s).
+pub fn duration(given: Option<f64>) -> Result<(), CommandError> {
+    match given {
+        Some(d) if !(d > 0.0 && d <= LONGEST_S) => {
+            let remedy = "give seconds greater than zero, at most 1e6";
+            Err(CommandError::option("duration", d, remedy))
+        }
+        _ => Ok(()),
     }
 }
 
 /// A velocity restitution from the command line, checked.
 pub fn restitution(given: Option<f64>) -> Result<Option<f64>, CommandError> {
     match given {
-        Some(e) if !(0.0..=1.0).contains(&e) => Err(CommandError::Option {
-            option: "restitution",
-            value: format!("{e:?}"),
-            remedy: "a velocity ratio lies between 0 and 1",
-        }),
+        Some(e) if !(0.0..=1.0).contains(&e) => {
+            Err(CommandError::option("restitution", e, "a velocity ratio lies between 0 and 1"))
+        }
         given => Ok(given),
     }
 }

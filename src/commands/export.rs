@@ -178,7 +178,7 @@ fn elastic(
 ) -> Result<ExportedDeck, CommandError> {
     let excitation = o.record.checked_excitation(|| parameters.excitation(&o.parameters))?;
     let record = excitation.used()?;
-    let assembled = parameters.assembled().map_err(|e| CommandError::Result(e.to_string()))?;
+    let assembled = parameters.assembled().map_err(CommandError::result)?;
     match (stepping, &parameters.program) {
         (Stepping::Events, _) => {}
         (stepping, Some(program)) => {
@@ -201,7 +201,7 @@ fn elastic(
             &record.accel,
         )
     };
-    let history = case.simulate().map_err(|e| CommandError::Result(e.to_string()))?;
+    let history = case.simulate().map_err(CommandError::result)?;
     let text = deck(&assembled, &springs, &record, &history, (o.format, o.accuracy))?;
     Ok(ExportedDeck { text, record, line: excitation.line() })
 }
@@ -212,7 +212,7 @@ pub(super) fn check_accuracy(accuracy: f64) -> Result<(), CommandError> {
         return Ok(());
     }
     let remedy = "give a normalised error from 1e-6 to 0.1";
-    Err(CommandError::Option { option: "accuracy", value: accuracy.to_string(), remedy })
+    Err(CommandError::option("accuracy", format_args!("{accuracy}"), remedy))
 }
 
 /// The model that decks hold, the part of its record that is used, and a line that says which: that

@@ -105,11 +105,8 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     if o.no_record {
         if case.tuning.objective == Objective::Arr {
             let remedy = "the paper's procedure tunes on a record; leave one of the two out";
-            return Err(CommandError::Option {
-                option: "no-record",
-                value: "objective = \"arr\"".into(),
-                remedy,
-            });
+            let value = format_args!("objective = \"arr\"");
+            return Err(CommandError::option("no-record", value, remedy));
         }
         case.set_excitation(Excitation::whole(Record::new("none", 0.01, vec![0.0; 2])?))?;
     } else {
@@ -175,11 +172,7 @@ impl RunOptions {
         if let (Some(_), Some(peaks)) = (accuracy, peaks) {
             let remedy = "springs are chosen by --peaks or by --accuracy, and the other is \
                           measured: leave one out";
-            return Err(CommandError::Option {
-                option: "peaks",
-                value: format!("{peaks:?}"),
-                remedy,
-            });
+            return Err(CommandError::option("peaks", peaks, remedy));
         }
         Ok(accuracy.or(peaks).map(|accuracy| Asked::new(accuracy, peaks)))
     }
@@ -241,11 +234,11 @@ pub(super) fn threads(jobs: Option<usize>) -> Result<(), CommandError> {
     if let Some(n) = jobs {
         if n == 0 {
             let remedy = "give at least one thread, or leave it out for one a core";
-            return Err(CommandError::Option { option: "jobs", value: n.to_string(), remedy });
+            return Err(CommandError::option("jobs", n, remedy));
         }
         if n > MOST_THREADS {
             let remedy = "give at most 1024 threads";
-            return Err(CommandError::Option { option: "jobs", value: n.to_string(), remedy });
+            return Err(CommandError::option("jobs", n, remedy));
         }
         rayon::ThreadPoolBuilder::new().num_threads(n).build_global().map_err(|e| {
             CommandError::Result(format!("--jobs {n}: {e}; give a smaller number of threads"))

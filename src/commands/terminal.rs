@@ -44,8 +44,7 @@ pub fn stdout(text: impl Display) -> Result<(), CommandError> {
 /// # Errors
 /// As [`stdout`].
 pub fn json(value: &impl Serialize) -> Result<(), CommandError> {
-    let json =
-        serde_json::to_string_pretty(value).map_err(|e| CommandError::Result(e.to_string()))?;
+    let json = serde_json::to_string_pretty(value).map_err(CommandError::result)?;
     let mut text = String::with_capacity(json.len() + 1);
     for c in json.chars() {
         match c {
@@ -72,6 +71,11 @@ pub fn stderr(line: impl Display) {
         Err(e) if e.kind() != ErrorKind::BrokenPipe => STDERR_FAILED.store(true, Ordering::Relaxed),
         _ => {}
     }
+}
+
+/// Say on stderr where results are.
+pub fn written(folder: &Path) {
+    stderr(format_args!("written to {}", shown(folder)));
 }
 
 /// Whether lines for stderr were lost on a full disk or a broken device.

@@ -13,7 +13,6 @@ use serde::Serialize;
 
 use self::model::{JudgedProgram, JudgedSprings};
 use super::{CommandError, common, progress::Progress, run::threads, terminal};
-use cases::LONGEST_S;
 use decks::Stepping;
 use dynamics::spring::ChainRow;
 use files::message::one_line;
@@ -229,7 +228,7 @@ pub fn run(o: &ValidateOptions) -> Result<(), CommandError> {
     let body = parameters.structure.body::<f64>();
     let restitution =
         common::restitution(o.restitution)?.unwrap_or_else(|| parameters.restitution());
-    check_duration(o.duration)?;
+    common::duration(o.duration)?;
     check_folder(&o.out)?;
     threads(o.jobs)?;
     let mut source = RecordsSource {
@@ -273,8 +272,7 @@ pub fn run(o: &ValidateOptions) -> Result<(), CommandError> {
         left_out: &left_out,
         validation: &validation,
     };
-    let mut json =
-        serde_json::to_string_pretty(&report).map_err(|e| CommandError::Result(e.to_string()))?;
+    let mut json = serde_json::to_string_pretty(&report).map_err(CommandError::result)?;
     json.push('\n');
     let folder = Folder::begin(&o.out, "validate", FILES, identity(&[&json, &o.no_figures]))?;
     write_file(&folder.path().join("validate.json"), json.as_bytes())?;
@@ -294,20 +292,8 @@ pub fn run(o: &ValidateOptions) -> Result<(), CommandError> {
             terminal::shown(&o.out.join("validate.csv"))
         ));
     }
-    terminal::stderr(format_args!("written to {}", terminal::shown(&o.out)));
+    terminal::written(&o.out);
     Ok(())
-}
-
-/// Whether a history can be this long (s).
-fn check_duration(duration: Option<f64>) -> Result<(), CommandError> {
-    match duration.filter(|duration| !(*duration > 0.0 && *duration <= LONGEST_S)) {
-        Some(duration) => Err(CommandError::Option {
-            option: "duration",
-            value: format!("{duration:?}"),
-            remedy: "give seconds greater than zero, at most 1e6",
-        }),
-        None => Ok(()),
-    }
 }
 
 fn draw(out: &Path, judged: &JudgedSprings, validation: &Validation) -> Result<(), CommandError> {

@@ -81,11 +81,8 @@ pub fn run(o: &VerifyOptions) -> Result<(), CommandError> {
     draw(folder.path(), &parameters, &record, &result)?;
     folder.finish()?;
     terminal::stdout(format_args!("{}", said(&record, &result)))?;
-    terminal::stderr(format_args!(
-        "{line}
-written to {}",
-        terminal::shown(&o.out)
-    ));
+    terminal::stderr(line);
+    terminal::written(&o.out);
     if result.verdict.within { Ok(()) } else { Err(CommandError::Failed(refusal(&result))) }
 }
 

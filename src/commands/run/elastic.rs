@@ -33,8 +33,8 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     check_folder(&o.out)?;
     threads(o.jobs)?;
 
-    let assembled = Assembled::with_members(case.structure, case.members)
-        .map_err(|e| CommandError::Result(e.to_string()))?;
+    let assembled =
+        Assembled::with_members(case.structure, case.members).map_err(CommandError::result)?;
     if !o.no_record {
         progress::taken(&case.excitation.line(), &case.doubts(), o.quiet);
     }
@@ -45,13 +45,13 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     let reference = record.as_ref().map(|record| referred(&assembled, record, &effort)).transpose();
     let reference = reference.map_err(|e| match e {
         ReferredError::TooShort(e) => e.into(),
-        e => CommandError::Result(e.to_string()),
+        e => CommandError::result(e),
     })?;
     let program = case.program.unwrap_or_else(FixedStepProgram::usual);
     let asked = ElasticAsked { error: case.asked, most_hz: case.max_omega_hz, program };
     let tuned = tune_within(&assembled, asked, record.as_ref().zip(reference), &effort, &tell);
     progress.done();
-    let mut tuned = tuned.map_err(|e| CommandError::Result(e.to_string()))?;
+    let mut tuned = tuned.map_err(CommandError::result)?;
     let Some((record, reference)) = record.zip(tuned.reference.take()) else {
         let run = report::elastic::of_case(&case, alone(&assembled, &tuned, case.asked));
         springs_alone(o, &run)?;
@@ -65,7 +65,7 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     }
     let answer = ElasticAnswer::new(&assembled, &tuned.springs.corners, &record, reference, near);
     progress.done();
-    let answer = answer.map_err(|e| CommandError::Result(e.to_string()))?;
+    let answer = answer.map_err(CommandError::result)?;
     let run = ElasticRun::new(case, assembled, tuned, record, answer, friction);
     let output = Output { figures: !o.no_figures, report: !o.no_report };
     let left_out = run.save(&o.out, &files(), output)?;

@@ -141,7 +141,7 @@ pub fn gather(parts: &SweepParts, doubts: &[String], draw: bool) -> Result<(), C
     write_file(&out.join("summary.md"), said.as_bytes())?;
     folder.finish()?;
     terminal::stdout(format_args!("{said}"))?;
-    terminal::stderr(format_args!("written to {}", terminal::shown(parts.folder)));
+    terminal::written(parts.folder);
     Ok(())
 }
 

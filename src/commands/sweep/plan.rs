@@ -50,11 +50,7 @@ pub struct PlanOptions {
 pub fn run(o: &PlanOptions) -> Result<(), CommandError> {
     if o.time.is_empty() || !o.time.chars().all(|c| c.is_ascii_digit() || c == ':' || c == '-') {
         let remedy = "give minutes, or hours:minutes:seconds, as 02:00:00";
-        return Err(CommandError::Option {
-            option: "time",
-            value: format!("{:?}", o.time),
-            remedy,
-        });
+        return Err(CommandError::option("time", &o.time, remedy));
     }
     let plan = Plan::read(&o.sweep)?;
     let hash = inspected(&plan)?.hash;
@@ -102,7 +98,7 @@ pub fn run(o: &PlanOptions) -> Result<(), CommandError> {
             terminal::shown(&o.out.join("submit.sh"))
         ));
     }
-    terminal::stderr(format_args!("written to {}", terminal::shown(&o.out)));
+    terminal::written(&o.out);
     Ok(())
 }
 

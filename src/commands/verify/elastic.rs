@@ -40,11 +40,11 @@ pub fn run(
     let record = excitation.used()?;
     check_folder(&o.out)?;
     check_accuracy(o.accuracy)?;
-    let assembled = parameters.assembled().map_err(|e| CommandError::Result(e.to_string()))?;
+    let assembled = parameters.assembled().map_err(CommandError::result)?;
     let springs = parameters.chains();
     let histories = Reference::new(&assembled, &record, TRIED, MOST_WORK)
         .and_then(|reference| ElasticHistories::new(&assembled, &springs, &record, reference))
-        .map_err(|e| CommandError::Result(e.to_string()))?;
+        .map_err(CommandError::result)?;
     let part = histories.compared(&record, &[]);
     if part.samples < 2 {
         let refusal = "verify: nothing can be compared, the history ends with its first sample; \
@@ -88,7 +88,8 @@ pub fn run(
 
     let said = said(&record, &part, &peaks, &ran, [rotation, drift]);
     terminal::stdout(format_args!("{said}"))?;
-    terminal::stderr(format_args!("{}\nwritten to {}", excitation.line(), terminal::shown(&o.out)));
+    terminal::stderr(excitation.line());
+    terminal::written(&o.out);
     if within([rotation, drift]) {
         return Ok(());
     }
