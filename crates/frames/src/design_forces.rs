@@ -21,8 +21,6 @@ mod columns;
 mod cutoff;
 mod name;
 
-use serde::{Deserialize, Serialize};
-
 pub use beside::{ForcesTogether, HeldForce, MOST_CHANGE, OtherForces};
 pub use columns::{COMPARED, ColumnForces, ColumnPeaks, stiffer};
 pub use cutoff::Cutoff;
@@ -41,7 +39,7 @@ use rocking::motion::TimedPeak;
 use strong_motion::Record;
 
 /// A peak with its sign, and when it is (s).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForcePeak {
     /// [N, N m]
     pub value: f64,
@@ -57,7 +55,7 @@ impl From<TimedPeak> for ForcePeak {
 
 /// A force, and by how much it changes with what is not the structure's; changes are shares of it,
 /// measured over `over_s`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StructureForce {
     /// Which.
     pub kind: ForceName,
@@ -71,7 +69,6 @@ pub struct StructureForce {
     pub together: Option<ForcesTogether>,
     /// Where, above the base along the column (m), of a column's shear or tension: the middle of an
     /// element, or its top.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub above_base_m: Option<f64>,
     /// What was found, whether it holds or not, and what with another mesh and on other springs [N,
     /// N m].
@@ -79,22 +76,17 @@ pub struct StructureForce {
     /// Largest magnitude without a filter [N, N m].
     pub raw: f64,
     /// Frequency below which it is given (Hz); none: as it is.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cutoff_hz: Option<f64>,
     /// Length of the record from its start that the peak is of (s): all of it, or as much as can be
     /// foretold.
     pub over_s: f64,
     /// Of a force that holds over that part alone: what it is over the whole record.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub whole_record: Option<OtherForces>,
     /// Of a force that is larger after what can be foretold: what it is, and holds, up to then.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub held: Option<HeldForce>,
     /// The structure held to the ground, below the same cutoff.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fixed: Option<ForcePeak>,
     /// The rigid body by Housner's equation, between impacts.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rigid: Option<ForcePeak>,
 }
 
@@ -113,10 +105,9 @@ impl StructureForce {
 }
 
 /// All forces of a run.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct StructureForces {
     /// Below which column forces are given, and what it keeps; none of columns without mass.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cutoff: Option<Cutoff>,
     /// In the order of `ForceName::MEASURED`, less what does not apply.
     pub forces: Vec<StructureForce>,

@@ -7,8 +7,6 @@ use std::{
     sync::atomic::{AtomicUsize, Ordering},
 };
 
-use serde::{Deserialize, Serialize};
-
 use decks::deck_steps;
 use dynamics::{
     effort::Effort,
@@ -26,7 +24,7 @@ use springs::{
 const LADDER_HZ: [f64; 8] = [160.0, 320.0, 640.0, 1280.0, 2560.0, 5120.0, 10240.0, 20480.0];
 
 /// One point of the front.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TradeoffPoint {
     /// Omega_n of the vertical units (Hz).
     pub omega_n_hz: f64,

@@ -7,13 +7,11 @@
 
 use std::f64::consts::PI;
 
-use serde::Serialize;
-
 use super::{Peak, Record, parsed};
 use crate::GRAVITY;
 
 /// What describes a record.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measures {
     /// Peak ground acceleration (m/s2), with its sign, and its time.
     pub pga: Peak,

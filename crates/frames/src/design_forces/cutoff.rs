@@ -1,7 +1,5 @@
 //! The frequency below which forces of a column are given.
 
-use serde::{Deserialize, Serialize};
-
 use crate::{frame::FrameError, structure::ElasticStructure};
 
 /// Cutoff over the third bending mode: at which a Butterworth filter of order 4, forwards and
@@ -18,7 +16,7 @@ pub(crate) const PARTS_A_PERIOD: f64 = 16.0;
 pub(crate) const SOLE_HZ: f64 = 20.0;
 
 /// Frequency below which a column's forces are given, and what it keeps.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Cutoff {
     /// (Hz)
     pub cutoff_hz: f64,
