@@ -30,8 +30,8 @@ pub enum CaseError {
     #[error("{path}: {source}")]
     Elastic { path: String, source: frames::structure::ElasticError },
     #[error(
-        "{path}: this is an elastic structure, of which tune run alone takes the case; give a rigid \
-            body here: kind = \"aframe\" or \"block\""
+        "{path}: this is an elastic structure, of which tune run alone takes the case; give a \
+            rigid body here: kind = \"aframe\" or \"block\""
     )]
     OfElastic { path: String },
     #[error("{path}: {source}")]

@@ -59,8 +59,8 @@ pub trait FixedStepModel {
         out: &mut Self::Vector,
     );
 
-    /// Norm of what an iteration leaves (N, N m), as a model with nodes of their own at the feet has
-    /// it: a contact that changes leaves a force on the foot's node and its opposite on the
+    /// Norm of what an iteration leaves (N, N m), as a model has it whose feet are nodes of their
+    /// own: a contact that changes leaves a force on the foot's node and its opposite on the
     /// absorber, not a moment about the mass.
     fn unbalance_norm(&self, _places: &Self::Places, unbalance: &Self::Vector) -> f64 {
         unbalance.as_ref().iter().map(|f| f * f).sum::<f64>().sqrt()

@@ -193,7 +193,7 @@ mod tests {
         assert!("abaqus".parse::<ProgramName>().unwrap_err().to_string().contains("opensees-even"));
     }
 
-    /// CSI's programs stop at what a foot drops that lifts, at any step; others at a change of place.
+    /// CSI's programs stop at what a foot drops that lifts; others at a change of place.
     #[test]
     fn programs_stop_by_their_own_tests() {
         let body = Structure::paper().body::<f64>();

@@ -126,7 +126,7 @@ impl ElasticParts<'_> {
             all.extend((motions > 0).then_some(left_out));
         }
         let (needed, press) = self.friction_needed();
-        all.extend((needed.value > self.friction).then(|| Finding::Sliding {
+        all.extend((needed.value > self.friction).then_some(Finding::Sliding {
             needed: needed.value,
             time_s: Some(needed.time),
             available: self.friction,

@@ -40,8 +40,8 @@ pub struct DesignForce {
     /// below the same frequency.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub together: Option<ForcesTogether>,
-    /// Where the shear or the tension of an elastic structure's column is so large: height above its
-    /// base, along it (m); 0 at the base.
+    /// Where the shear or the tension of an elastic structure's column is so large: height above
+    /// its base, along it (m); 0 at the base.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub above_base_m: Option<f64>,
     /// What it is with another mesh and on other springs, of an elastic structure.

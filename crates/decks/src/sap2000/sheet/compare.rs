@@ -42,10 +42,10 @@ pub(super) fn notes(parts: &SapModel) -> String {
         "No springs of a soil: these links make the landing what Housner's theory has it.",
         "The tolerance is loose on purpose: there are steps at whose end neither a foot on the \
          ground nor\n     one in the air fits its own force, and a tighter test stops there. It is \
-         the horizontal force\n     that a foot drops as it lifts, on its joint and on its absorber.",
+         what a foot drops as\n     it lifts, on its joint and on its absorber.",
         "Event-to-event stepping is off on purpose: these springs were judged without it. \
-         Emulated, it errs\n     less (docs/fixed-steps.md), but how the program finds events is not \
-         published.",
+         Emulated, it errs\n     less (docs/fixed-steps.md), but how the program finds events is \
+         not published.",
         "The program's isolator has a shear force that follows its axial force; the tuned model \
          has a plain\n     spring that lets go when the foot lifts. With this friction they are \
          the same but in the air.",
