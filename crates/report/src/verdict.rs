@@ -4,6 +4,9 @@ use crate::{HOUSNER, Run, predictable_to, sentence};
 use files::message::{quantity, significant};
 use results::{DeckEnd, Finding, FindingModel, Weight, apart_words};
 
+/// Share of the largest displacement below which that of a part tells nothing.
+const HARDLY: f64 = 0.02;
+
 impl Run {
     /// What the run was asked, in one sentence.
     pub fn verdict(&self) -> String {
@@ -12,7 +15,10 @@ impl Run {
             self.findings.iter().find(|f| matches!(f.finding, Finding::ModelsDisagree { .. }));
         let gravest = answer.filter(|_| self.has_members()).or(graver).or(answer);
         let Some(told) = gravest else {
-            return "Springs without a record: nothing rocked.".into();
+            return match self.taken.record {
+                Some(_) => "Nothing rocks, as far as it could be followed.".into(),
+                None => "Springs without a record: nothing rocked.".into(),
+            };
         };
         if let Some(without) = self.without_members() {
             return sentence(&format!(
@@ -96,8 +102,12 @@ impl Run {
         let then = self.peaks.and_then(|pair| Some((pair.foretold?, pair.reference)));
         let then = then
             .filter(|(part, all)| part.top_displacement_m[0] < all.top_displacement_m)
-            .map(|(part, _)| quantity(part.top_displacement_m[0], "m"));
-        let then = then.map_or(String::new(), |top| format!(" (top {top})"));
+            .map(|(part, all)| (part.top_displacement_m[0], all.top_displacement_m));
+        let then = then.map_or(String::new(), |(top, largest)| match top < HARDLY * largest {
+            // a change that hardly shows in the whole may be all of it
+            true => " (it hardly moves until then)".into(),
+            false => format!(" (top {})", quantity(top, "m")),
+        });
         format!("{then}{later}")
     }
 
