@@ -121,6 +121,28 @@ fn run_for(program: &str, step_s: f64) -> RigidRun {
     run(1.0, Some(&format!("{frame}[program]\nfor = \"{program}\"\nstep_s = {step_s:?}\n")))
 }
 
+/// What a program's springs err on the record is told up to the time that is printed beside it,
+/// whatever ends what can be foretold.
+#[test]
+fn errors_of_a_program_are_of_the_time_that_is_told() {
+    let block = "[structure]\nkind = \"block\"\ntotal_height_m = 5.0\nwidth_m = 1.0\n\
+                 mass_kg = 9e3\n";
+    let run = run(1.2, Some(block));
+    let until = predictable_to(&run.parameters.findings).unwrap();
+    assert!(until < 7.0, "{until}");
+    let samples = (until / run.job.record.dt).round() as usize + 1;
+    let largest = |u: &[f64]| u[..samples].iter().fold(0.0, |most: f64, u| most.max(u.abs()));
+    let [steps, housner] =
+        [&run.of_steps.as_ref().unwrap().motion.u, &run.both.rocking.motion(&run.job.body).u]
+            .map(|u| largest(u));
+    let on = run.parameters.program.as_ref().unwrap().on_record.unwrap();
+    assert!((on.top.unwrap() - (steps / housner - 1.0)).abs() < 1e-3, "{on:?} {steps} {housner}");
+    let forces = run.parameters.design_forces.unwrap();
+    for (name, force) in forces.all() {
+        assert!(force.held.is_none_or(|held| held.over_s == until), "{name:?} {force:?}");
+    }
+}
+
 /// A program's decks, what the screen says of them, and Housner's numbers in the sheet.
 #[test]
 fn a_program_that_is_asked_for_has_its_sheet() {
