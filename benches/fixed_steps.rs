@@ -28,10 +28,7 @@ use fixed_steps::{
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
-use rocking::{
-    scalar::GRAVITY,
-    structure::{Body, Structure},
-};
+use rocking::structure::{Body, Structure};
 use springs::{
     fixed_steps::{LONGEST, ProgramSprings, design},
     suite::{self, Suites},
@@ -115,7 +112,7 @@ fn errors_of(
     springs: &FixedStepSprings,
     events: Option<EventStepping>,
 ) -> ErrorsOverMotions {
-    let settings = program.settings(springs.body.mass, springs.body.alpha());
+    let settings = program.settings(springs.body.lifting_force());
     errors_in(of, springs, StepSettings { events, ..settings })
 }
 
@@ -297,11 +294,10 @@ fn tolerance() -> Result<(), BenchError> {
         over_bodies(&name, integrator, &TOLERANCES, |below, of, step| {
             let numbers = FixedStepDesign { stance, ..design(&of.body, step) };
             let springs = FixedStepSprings::designed(&of.body, step, integrator, &numbers).ok()?;
-            let body = springs.body;
+            let lifting = springs.body.lifting_force();
             let program = FixedStepProgram::of(ProgramName::Sap2000, step);
-            let mut settings = program.settings(body.mass, body.alpha());
-            let below = below * body.mass * GRAVITY * body.alpha().tan();
-            settings.iteration.test = ConvergenceTest::Unbalance(below);
+            let mut settings = program.settings(lifting);
+            settings.iteration.test = ConvergenceTest::Unbalance(below * lifting);
             Some(errors_in(of, &springs, settings))
         })?;
     }

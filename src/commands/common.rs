@@ -93,10 +93,13 @@ impl RecordOptions {
 
     /// The own record from its file, with what the options say of it.
     fn read_again(&self, own: Excitation) -> Result<Excitation, CommandError> {
-        let Source::File { path, units, component, baseline, .. } = &own.record.source else {
-            return Err(self.no_file());
-        };
         let said = self.reading();
+        let Source::File { path, units, component, baseline, .. } = &own.record.source else {
+            // there is none to leave out
+            let none = Some(VerticalFrom::None);
+            let asked_alone = said == ReadOptions { vertical: none, ..ReadOptions::default() };
+            return if asked_alone { Ok(own) } else { Err(self.no_file()) };
+        };
         let options = ReadOptions {
             dt: said.dt.or(Some(own.record.dt)),
             units: said.units.or(Some(*units)),

@@ -179,11 +179,11 @@ fn elastic(
     let excitation = o.record.checked_excitation(|| parameters.excitation(&o.parameters))?;
     let record = excitation.used()?;
     let assembled = parameters.assembled().map_err(CommandError::result)?;
+    let until = report::predictable_to(&parameters.findings).filter(|_| o.record.is_own());
     match (stepping, &parameters.program) {
         (Stepping::Events, _) => {}
         (stepping, Some(program)) => {
             let program = CornerProgram::new(&assembled, program, stepping)?;
-            let until = report::predictable_to(&parameters.findings).filter(|_| o.record.is_own());
             let deck = stepped_deck_of(&assembled, &program, &record, o.format, until)?;
             let (text, line) = told(deck, excitation.line());
             return Ok(ExportedDeck { text, record, line });
@@ -202,7 +202,7 @@ fn elastic(
         )
     };
     let history = case.simulate().map_err(CommandError::result)?;
-    let text = deck(&assembled, &springs, &record, &history, (o.format, o.accuracy))?;
+    let text = deck(&assembled, &springs, &record, (&history, until), (o.format, o.accuracy))?;
     Ok(ExportedDeck { text, record, line: excitation.line() })
 }
 

@@ -21,7 +21,7 @@ use crate::{
     DeckFormat, Expected, ExportError,
     beside::housner_range,
     export_model,
-    model::{DeckModel, with_inertia},
+    model::{ACCURACY, DeckModel, with_inertia},
 };
 
 /// How a deck steps.
@@ -350,7 +350,7 @@ pub fn stepped_deck(
 ) -> Result<SteppedDeck, ExportError> {
     if stepping == Stepping::Events {
         return Ok(SteppedDeck {
-            text: crate::deck(parameters, record, format)?,
+            text: crate::deck_of(parameters, record, format, ACCURACY, until)?,
             gives_up_s: None,
             until,
         });

@@ -134,10 +134,10 @@ pub struct FixedStepProgram {
 pub const SUBSTEPS: usize = 16;
 /// The step of a program that nobody has told (s).
 pub const USUAL_STEP: f64 = 1e-3;
-/// Tolerance of an unbalance over W tan(alpha): a foot that lifts drops its horizontal force, W
-/// tan(alpha) at the onset of rocking, which is then missing on its node and on the absorber's.
-/// With less, iterations that go to and fro between the foot on the ground and in the air never
-/// arrive; with more, long steps err more (`cargo bench --bench fixed_steps -- tolerance`).
+/// Tolerance of an unbalance over the horizontal force that lifts a structure, W tan(alpha) of a
+/// rigid body: the foot that bore all drops about so much as it lifts in a landing, which is then
+/// missing on its node and on the absorber's. With less, iterations that go to and fro between the
+/// foot on the ground and in the air never arrive (`cargo bench --bench fixed_steps -- tolerance`).
 pub const DROPPED: f64 = std::f64::consts::SQRT_2;
 /// Newton's iterations of a step at most, as a public generator of SAP2000's tables has them.
 const CSI_NEWTON: usize = 40;
@@ -159,11 +159,11 @@ impl FixedStepProgram {
         matches!(self.name, Some(ProgramName::Sap2000 | ProgramName::Etabs))
     }
 
-    /// How it steps under a mass (kg) that lifts beyond tan(alpha) g: to a change of place of g
-    /// dt^2/10, or to the unbalance that a foot leaves that lifts ([`DROPPED`]).
-    pub fn settings(&self, mass: f64, alpha: f64) -> StepSettings {
+    /// How it steps a structure that this horizontal force lifts (N): to a change of place of g
+    /// dt^2/10, or to an unbalance ([`DROPPED`]).
+    pub fn settings(&self, lifting: f64) -> StepSettings {
         let iteration = if self.tests_unbalance() {
-            let test = ConvergenceTest::Unbalance(DROPPED * mass * GRAVITY * alpha.tan());
+            let test = ConvergenceTest::Unbalance(DROPPED * lifting);
             Iteration { constant: 0, newton: CSI_NEWTON, test }
         } else {
             let test = ConvergenceTest::Increment(TOLERANCE * GRAVITY * self.step.powi(2));
@@ -199,7 +199,8 @@ mod tests {
         let body = Structure::paper().body::<f64>();
         for step in [1e-2, 1e-4] {
             let program = FixedStepProgram::of(ProgramName::Sap2000, step);
-            let settings = program.settings(body.mass, body.alpha());
+            let lifting = body.lifting_force();
+            let settings = program.settings(lifting);
             let Iteration { constant: 0, newton: 40, test: ConvergenceTest::Unbalance(below) } =
                 settings.iteration
             else {
@@ -211,8 +212,7 @@ mod tests {
             assert_relative_eq!(settings.least, step / 16.0, max_relative = 1e-12);
             let springs = FixedStepSprings::of(&body, step, program.integrator).unwrap();
             let even = FixedStepProgram { name: None, ..program };
-            let even = even.settings(body.mass, body.alpha());
-            assert_eq!(even.iteration, springs.iteration());
+            assert_eq!(even.settings(lifting).iteration, springs.iteration());
         }
     }
 }

@@ -132,7 +132,7 @@ pub struct ProgramOnRecord {
     /// When it gives up, if it does (s).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gives_up_s: Option<f64>,
-    /// When the structure lies on the ground, if it falls (s).
+    /// When the structure has fallen over, turned by 1 rad, if it does (s).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub falls_s: Option<f64>,
     /// Whether no small change moves the motion by much, so that this tells of the springs; none:
@@ -292,8 +292,8 @@ impl<U> ProgramRow<U> {
 
     /// What is wrong with them, if they are of no use: on the set of motions where they err most,
     /// or on the record where it can be predicted and errs more. Earthquake-like motions count in
-    /// steps that are too long by the law of the floor, and where peaks err by more than they are:
-    /// in shorter steps the springs' sway errs there, at any step.
+    /// steps that are too long by the law of the floor, and where peaks err by more than 30 %: in
+    /// shorter steps the springs' sway errs there, at any step.
     fn fault(&self) -> Option<ProgramFault> {
         let ProgramExpected { synthetic, earthquakes, floor, .. } = self.expected;
         let no_peak = |errors: &ProgramErrors| errors.peak[0].is_none_or(|median| median > NO_PEAK);

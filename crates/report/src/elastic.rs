@@ -32,8 +32,8 @@ use rocking::{
 pub use springs::of_case;
 use strong_motion::Record;
 
-/// Part of the weight below which the ground's force tells nothing of friction: the structure all
-/// but flies.
+/// Part of what a footing bears at rest below which its force tells nothing of friction: it all but
+/// flies.
 const LEAST_PRESS: f64 = 0.1;
 
 /// Share of the feet's distance above which it is said that they end elsewhere than they began.

@@ -35,7 +35,7 @@ pub struct HousnerReport {
     /// When its pivot left the ground, which ends his solution (s).
     pub left_ground_s: Option<f64>,
     /// Of a history that is ill-conditioned: up to when no change of 0.1 % moves it by a twentieth
-    /// of its peak (s), if that is not all of it.
+    /// of its largest displacement so far (s), if that is not all of it.
     pub holds_to_s: Option<f64>,
 }
 
@@ -109,6 +109,14 @@ impl HousnerReport {
         friction_needed(&self.regime, self.lands)
     }
 
+    /// Where pure rocking does not hold, beside both models' answers: feet that are given friction
+    /// slide, and that is no doubt.
+    pub(crate) fn findings_beside(&self, both: &ModelComparison) -> Vec<Finding> {
+        let slide = both.with.as_ref().is_some_and(|with| with.members.friction.is_some());
+        let told = |finding: &Finding| !(slide && matches!(finding, Finding::Sliding { .. }));
+        self.findings().into_iter().filter(told).collect()
+    }
+
     /// Where pure rocking does not hold.
     pub(crate) fn findings(&self) -> Vec<Finding> {
         let r = &self.regime;
@@ -158,7 +166,7 @@ pub fn all(
 ) -> Vec<Finding> {
     let mut all = verdict(structure, record, both, of);
     all.extend(ill_conditioned(report, of, false));
-    all.extend(report.findings());
+    all.extend(report.findings_beside(both));
     all.extend(histories(both));
     all
 }

@@ -169,10 +169,7 @@ impl RigidRun {
         all.extend(program::findings(&self.case, parameters));
         all.extend(parameters.design_forces.iter().flat_map(|forces| forces.withheld()));
         all.extend(parameters.design_forces.iter().filter_map(|forces| forces.at_rest()));
-        // where friction is given, feet slide
-        let holds = self.case.members.friction.is_none();
-        let sliding = |finding: &Finding| matches!(finding, Finding::Sliding { .. });
-        all.extend(self.report.findings().into_iter().filter(|f| holds || !sliding(f)));
+        all.extend(self.report.findings_beside(&self.both));
         all.extend(reference::histories(&self.both));
         all.extend(self.of_deck.clone());
         all

@@ -96,7 +96,7 @@ pub enum Finding {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         moved_by_restitution: Option<f64>,
         /// Up to when no change of 0.1 %, of width, scale or restitution, moves it by a twentieth
-        /// of its peak (s); none: to its end.
+        /// of its largest displacement so far (s); none: to its end.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         holds_to_s: Option<f64>,
         springs_judged: bool,

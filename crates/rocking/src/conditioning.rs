@@ -333,6 +333,20 @@ mod tests {
         assert_eq!(found.predictable_to(), Some(holds_to));
     }
 
+    /// A larger pulse that comes later does not make what was before it hold for longer.
+    #[test]
+    fn what_comes_later_does_not_decide_up_to_when_a_history_holds() {
+        let body = Structure::a_frame(20.0, 2.0, 1e5).unwrap().body::<f64>();
+        let record = crate::synthetic::record(7, 2, body.p_squared().sqrt(), body.alpha());
+        let options = RockingOptions::default();
+        let holds = |accel: &[f64]| changes(&body, record.dt, accel, &options).holds_to_s;
+        let mut longer = record.accel.clone();
+        let alone = holds(&longer);
+        longer.extend((0..400).map(|i| if i < 200 { 6.0 } else { 0.0 }));
+        let until = holds(&longer);
+        assert!(until.is_some() && alone.is_none_or(|alone| Some(alone) == until));
+    }
+
     /// Among motions made for a slender frame some look well conditioned to the derivative alone.
     #[test]
     fn some_motions_of_any_suite_are_well_conditioned_by_the_derivative_alone() {

@@ -161,6 +161,11 @@ impl<S: Scalar> Body<S> {
         self.half_width.atan2(self.height)
     }
 
+    /// Horizontal force on the mass that lifts the body, m g tan(alpha) (N).
+    pub fn lifting_force(&self) -> S {
+        self.mass * real::<S>(GRAVITY) * self.half_width / self.height
+    }
+
     /// m R^2 / I0, with I0 = I_cg + m R^2: 1 for an A-frame, 3/4 for a solid block.
     pub fn mass_share(&self) -> S {
         let r = self.radius();

@@ -101,15 +101,16 @@ fn program_row(assembled: &Assembled, program: &ElasticProgramSprings) -> Progra
     ProgramRow::of_corners(program, assembled.structure.mass(), places)
 }
 
-/// The deck that is to find this history, in a format, its steps for an accuracy.
+/// The deck that is to find this history, up to when it can be foretold (s) if not to its end; in a
+/// format, its steps for an accuracy.
 pub fn deck(
     assembled: &Assembled,
     springs: &[Springs<Chain>],
     record: &Record,
-    history: &ElasticHistory,
+    (history, until): (&ElasticHistory, Option<f64>),
     (format, accuracy): (DeckFormat, f64),
 ) -> Result<String, ExportError> {
-    deck_of(assembled, (springs, None), record, (&history.q, None), (format, accuracy))
+    deck_of(assembled, (springs, None), record, (&history.q, until), (format, accuracy))
 }
 
 /// The same of any springs and history, which is compared up to a time (s) if one is given.
@@ -311,7 +312,8 @@ impl ElasticRun {
     /// A deck whose steps follow touches.
     fn deck(&self, format: DeckFormat) -> Result<String, ExportError> {
         let corners = &self.tuned.springs.corners;
-        let fem = &self.answer.histories.fem;
+        let until = predictable_to(&self.parameters.findings);
+        let fem = (&self.answer.histories.fem, until);
         deck(&self.assembled, corners, &self.record, fem, (format, ACCURACY))
     }
 

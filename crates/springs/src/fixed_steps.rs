@@ -250,7 +250,7 @@ impl ProgramSprings {
 
     /// How the program steps on them.
     pub fn settings(&self) -> StepSettings {
-        self.program.settings(self.springs.body.mass, self.springs.body.alpha())
+        self.program.settings(self.springs.body.lifting_force())
     }
 
     /// Errors of the springs in the program; none of no motions.

@@ -82,8 +82,8 @@ impl fmt::Display for Notice {
             ),
             Self::Offset { file, component, share } => write!(
                 f,
-                "{file}: {} has an offset of {:.0} % of its peak; --baseline removes it, unless \
-                 a pulse is meant that leaves the ground moving",
+                "{file}: {} has an offset of {:.0} % of its peak; --baseline removes it (not of \
+                 a pulse that leaves the ground moving)",
                 who(component),
                 share * 100.0
             ),

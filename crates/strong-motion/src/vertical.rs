@@ -242,3 +242,20 @@ impl fmt::Display for Vertical {
         write!(f, "{} ({:.4} g)", quote(&self.name), self.peak_g())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn where_a_vertical_motion_comes_from_is_named_as_users_do() {
+        for (text, from) in [
+            ("none", VerticalFrom::None),
+            ("auto", VerticalFrom::Auto),
+            ("up.at2", VerticalFrom::File("up.at2".into())),
+        ] {
+            assert_eq!(text.parse(), Ok(from.clone()));
+            assert_eq!(PathBuf::from(from), PathBuf::from(text));
+        }
+    }
+}

@@ -57,7 +57,7 @@ pub fn run(
         q: histories.fem.q[..samples.min(histories.fem.q.len())].to_vec(),
         ..histories.fem
     };
-    let text = deck(&assembled, &springs, &record, &ours, (program.format(), o.accuracy))?;
+    let text = deck(&assembled, &springs, &record, (&ours, None), (program.format(), o.accuracy))?;
     let progress = Progress::new("OpenSees [s]", o.quiet);
     let samples = ours.q.len();
     let read = |path: &Path| configurations(&assembled, path, samples);

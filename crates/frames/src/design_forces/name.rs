@@ -14,7 +14,7 @@ pub enum ForceName {
     ColumnTopMoment,
     /// In a column at its base, or in a leg; tension positive (N).
     Axial,
-    /// The largest tension there (N).
+    /// The largest tension, where along the column it is largest (N).
     AxialTension,
     /// Where legs meet (N m).
     ApexMoment,

@@ -65,7 +65,7 @@ pub(super) fn on_record(
     };
     let later = |time: Option<f64>| time.is_none_or(|time| until.is_some_and(|until| until < time));
     let stands = later(both.matched.overturned_housner_s)
-        && later(both.rocking.left_ground())
+        && both.rocking.left_ground().is_none_or(|time| until.is_some_and(|until| until <= time))
         && later(falls_s);
     let Motion { theta, u, .. } = &history.motion;
     let covered = stands && samples <= theta.len().min(all.len());

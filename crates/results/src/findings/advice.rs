@@ -65,7 +65,7 @@ impl Finding {
             Self::ForceWithheld { housner: Some(_), .. } => {
                 "design for the larger, or take stiffer springs: --accuracy"
             }
-            Self::ForceWithheld { .. } => "refine: --accuracy; of columns with mass, elements",
+            Self::ForceWithheld { .. } => "refine: --accuracy, or, of columns with mass, elements",
             Self::SearchCut { .. }
             | Self::HistoriesUnfinished { .. }
             | Self::NearMotionsLeftOut { .. } => return self.remedy_of_search(),

@@ -77,6 +77,21 @@ fn at_rest_the_friction_needed_is_the_ground_acceleration_over_g() {
     assert!(sound(&regime));
 }
 
+/// A ramp lifts an A-frame between two samples, where the ground's force passes through its foot;
+/// later it lies along the leg, which leans.
+#[test]
+fn a_body_lifts_where_the_friction_needed_is_its_slope() {
+    let body = Structure::paper().body::<f64>();
+    let slope = 0.1;
+    let accel: Vec<f64> = (0..40).map(|i| 0.04 * GRAVITY * f64::from(i.min(3))).collect();
+    let rocking = solve(&body, 0.01, &accel, &RockingOptions::default());
+    let lifts = rocking.uplifts[0].time;
+    assert!((lifts - 0.025).abs() < 1e-9, "{lifts}");
+    let regime = check(&body, 0.01, (&accel, &[]), 1.0, &rocking, 0.5);
+    assert!((regime.friction_needed.value - slope).abs() < 1e-12, "{regime:?}");
+    assert_eq!(regime.friction_needed.time, lifts);
+}
+
 /// At the start of free rocking (no rate) the A-frame's force lies along its leg: |F|/N = tan(alpha
 /// - theta).
 #[test]

@@ -34,7 +34,7 @@ use frames::{
     peaks::StructurePeaks,
     standing::Standing,
 };
-use rocking::structure::Body;
+use rocking::{scalar::GRAVITY, structure::Body};
 
 /// Times as long a step as a program's usual one, tried where it loses most motions.
 const LONGER: [f64; 3] = [2.0, 4.0, 8.0];
@@ -111,7 +111,8 @@ impl ElasticProgramSprings {
 
     fn at(standing: &Standing, k: f64, program: FixedStepProgram, body: &Body<f64>) -> Self {
         let springs = for_step(standing, k, program.step, body);
-        let settings = program.settings(standing.mass, body.alpha());
+        let uplift = standing.uplift().unwrap_or(GRAVITY * body.alpha().tan());
+        let settings = program.settings(standing.mass * uplift);
         let floor = FLOOR * body.p_squared().sqrt() * program.step;
         Self { program, springs, settings, floor, measured: None }
     }

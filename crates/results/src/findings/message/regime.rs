@@ -4,7 +4,7 @@ use super::{apart_words, on, s};
 use crate::findings::{Ending, Finding};
 use files::message::{percent, significant};
 
-/// Share of the weight below which the ground's force is said where friction is.
+/// Share of what a footing bears at rest below which its load is said where friction is.
 const LIGHT: f64 = 0.5;
 
 impl Finding {
@@ -16,7 +16,7 @@ impl Finding {
                     time_s.map_or("in a landing".into(), |time| format!("at t = {}", s(time)));
                 let light = press_over_weight.filter(|share| *share < LIGHT);
                 let when = light.map_or(when.clone(), |share| {
-                    format!("{when}, under {} of what the footing bears at rest", percent(share))
+                    format!("{when}, under {} of its load at rest", percent(share))
                 });
                 format!(
                     "the feet would slide: friction of {} is needed {when}, {} is available",
