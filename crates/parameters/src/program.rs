@@ -292,8 +292,8 @@ impl<U> ProgramRow<U> {
 
     /// What is wrong with them, if they are of no use: on the set of motions where they err most,
     /// or on the record where it can be predicted and errs more. Earthquake-like motions count in
-    /// steps that are too long by the law of the floor, and where peaks err by more than 30 %: in
-    /// shorter steps the springs' sway errs there, at any step.
+    /// steps that are too long by the law of the floor, and where peaks err by more than 30 %;
+    /// elsewhere what they err there is a warning.
     fn fault(&self) -> Option<ProgramFault> {
         let ProgramExpected { synthetic, earthquakes, floor, .. } = self.expected;
         let no_peak = |errors: &ProgramErrors| errors.peak[0].is_none_or(|median| median > NO_PEAK);
@@ -335,9 +335,6 @@ impl<U> ProgramRow<U> {
             _ if !too_long && !self.has_usual_integrator() => ProgramAdvice::DefaultIntegrator,
             ProgramFault::Lost { .. } => ProgramAdvice::AnotherStep,
             ProgramFault::OnRecord { .. } if !too_long => ProgramAdvice::AnotherStep,
-            // what springs' sway errs on earthquakes does not fall with the step
-            ProgramFault::Peaks { earthquakes: true, .. } if too_long => step(USELESS),
-            ProgramFault::Peaks { earthquakes: true, .. } => ProgramAdvice::FollowTouches,
             ProgramFault::Peaks { median: error, .. }
             | ProgramFault::OnRecord { top: error }
             | ProgramFault::TooLong { floor: error } => step(error.abs()),

@@ -52,8 +52,6 @@ pub enum ProgramAdvice {
     DefaultIntegrator,
     /// No law tells which step.
     AnotherStep,
-    /// No step helps.
-    FollowTouches,
 }
 
 /// Why springs are not to be used in a program, and what to do.
@@ -96,7 +94,6 @@ impl fmt::Display for ProgramAdvice {
                 write!(f, "take the default integrator (leave --integrator out)")
             }
             Self::AnotherStep => write!(f, "try another --step, longer ones too"),
-            Self::FollowTouches => write!(f, "take OpenSees' deck, whose steps follow touches"),
         }
     }
 }
@@ -157,7 +154,7 @@ impl Finding {
             Self::ProgramStepTooLong { longest_s, .. } => {
                 return Some(ProgramAdvice::Step { step_s: *longest_s }.to_string());
             }
-            Self::ProgramErrsOnEarthquakes { .. } => "take OpenSees' deck, or judge by many",
+            Self::ProgramErrsOnEarthquakes { .. } => "take a shorter step, or OpenSees' deck",
             Self::ProgramNotToBeUsed { advice, .. } => return Some(advice.to_string()),
             Self::ProgramLoses { csi: true, .. } => {
                 "check that its history ends; else another --step, longer ones too"
