@@ -38,12 +38,9 @@ pub(crate) mod terminal;
 mod validate;
 mod verify;
 
-/// The version, and what was built with it.
-const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (features: cli, figures)");
-
 /// Ground springs that let a finite element program follow Housner's theory of rocking.
 #[derive(Debug, Parser)]
-#[command(name = "tune", version = VERSION, about)]
+#[command(name = "tune", version, about)]
 pub struct Cli {
     #[command(subcommand)]
     command: Command,

@@ -12,8 +12,7 @@ use super::{
 use cases::Case;
 use rocking::{
     housner::{self, RockingOutcome},
-    motion::peak,
-    overturning::samples_until,
+    motion::{peak, samples_until},
     structure::Structure,
 };
 use run_folder::{

@@ -66,8 +66,10 @@ struct FileReport {
 struct RunInputs {
     /// Name of the record.
     record: String,
-    /// Length compared unless another is asked for.
+    /// Length taken unless another is asked for.
     duration_s: f64,
+    #[serde(skip)]
+    is_cut: bool,
     /// Peak acceleration within that length.
     pga_g: f64,
     /// Time of the record's peak from its first sample, as histories count it.
@@ -176,7 +178,8 @@ impl FileReport {
                 .collect(),
             run: RunInputs {
                 record: taken.record.name.clone(),
-                duration_s,
+                duration_s: duration_s.min(taken.record.duration()),
+                is_cut: duration_s < LONGEST_S,
                 pga_g: taken.record.truncated(duration_s).pga_g(),
                 pga_time_s: peak.time.unwrap_or(0.0),
             },
@@ -198,11 +201,7 @@ impl FileReport {
             printable(&self.file),
             self.format,
             run.record,
-            if run.duration_s < LONGEST_S {
-                format!("its first {} s", run.duration_s)
-            } else {
-                "all of it".into()
-            }
+            if run.is_cut { format!("its first {} s", run.duration_s) } else { "all of it".into() }
         );
         let whole = self.components.iter().find(|row| row.taken).map_or(0.0, |row| row.pga_g.abs());
         if run.pga_g < whole {

@@ -13,7 +13,11 @@ use parameters::{
     program::{ProgramErrors, ProgramRow, ProgramTest},
 };
 use results::NotToBeUsed;
-use rocking::{motion::Motion, scalar::GRAVITY, structure::Structure};
+use rocking::{
+    motion::{Motion, samples_until},
+    scalar::GRAVITY,
+    structure::Structure,
+};
 use springs::fixed_steps::design;
 use strong_motion::Record;
 
@@ -332,7 +336,7 @@ impl SteppedDeck {
 
 /// Samples up to a time (s), of so many: two at least, to be compared on.
 pub fn samples_to(until: Option<f64>, dt: f64, all: usize) -> usize {
-    until.map_or(all, |until| ((until / dt + 1e-6) as usize + 1).max(2).min(all))
+    samples_until(until, dt).max(2).min(all)
 }
 
 /// The deck for a program with steps of one size. It compares its history up to when the motion can

@@ -1,12 +1,13 @@
 //! The finite element history beside Housner's: one set of numbers that says how well springs do.
 
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 
 use crate::fem::{History, Landing};
 use rocking::{
     housner::Impact,
-    motion::{Motion, nrmse, peak},
-    overturning::{overturned, samples_until},
+    json::null_as_infinite,
+    motion::{Motion, nrmse, peak, samples_until},
+    overturning::overturned,
     structure::Body,
 };
 
@@ -25,10 +26,10 @@ pub struct Match {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub overturned_fem_s: Option<f64>,
     /// sqrt( sum (u - u_H)^2 / sum u_H^2 ).
-    #[serde(deserialize_with = "number")]
+    #[serde(deserialize_with = "null_as_infinite")]
     pub nrmse_horizontal: f64,
     /// The same for v, from the settled position.
-    #[serde(deserialize_with = "number")]
+    #[serde(deserialize_with = "null_as_infinite")]
     pub nrmse_vertical: f64,
     /// Largest |u| with its sign (m).
     pub peak_horizontal_housner_m: f64,
@@ -56,7 +57,7 @@ pub struct Match {
     pub settlement_m: f64,
     /// Largest |e_effective/e - 1| over the landings with more than 1 % of the largest kinetic
     /// energy; the last is left out, for its losses may not be complete.
-    #[serde(deserialize_with = "number")]
+    #[serde(deserialize_with = "null_as_infinite")]
     pub restitution_error_max: f64,
     /// The same over impacts above the energy threshold, a fall from 0.02 alpha, for which springs
     /// are tuned: gentler ones are partly taken by the elastic stance. None if there are none.
@@ -117,11 +118,6 @@ impl Match {
             energy_residual: fem.energy_residual,
         }
     }
-}
-
-/// A number, or infinity where JSON has none.
-fn number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
-    Ok(Option::deserialize(from)?.unwrap_or(f64::INFINITY))
 }
 
 /// The least lean from which springs are judged, share of alpha.

@@ -4,7 +4,7 @@
 use dynamics::spring::{Chain, Springs};
 use rocking::{
     conditioning::Conditioning,
-    housner::{RockingOptions, solve},
+    housner::{RockingOptions, RockingOutcome, solve},
     motion::nrmse,
     statistics::quantile,
     structure::Body,
@@ -45,7 +45,7 @@ impl ReferenceHistory {
     /// restitution.
     pub fn new(body: &Body<f64>, dt: f64, accel: Vec<f64>) -> Option<Self> {
         let rocking = solve(body, dt, &accel, &RockingOptions::default());
-        let stands = rocking.overturned().is_none() && !rocking.impacts.is_empty();
+        let stands = rocking.outcome == RockingOutcome::Rocked && !rocking.impacts.is_empty();
         stands.then(|| Self { dt, u: rocking.motion(body).u, accel })
     }
 

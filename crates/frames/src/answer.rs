@@ -14,7 +14,7 @@ use dynamics::{
     fem::HistoryOutcome,
     spring::{Chain, Springs},
 };
-use rocking::members::Members;
+use rocking::{members::Members, motion::samples_until};
 use strong_motion::Record;
 
 /// Over how much of a record two histories are compared.
@@ -165,7 +165,7 @@ impl Reference {
     pub fn slides_on(&self) -> Option<f64> {
         self.history
             .first_sliding_landing_s
-            .filter(|time| self.foretold == self.history.samples_to(*time))
+            .filter(|time| self.foretold == samples_until(Some(*time), self.history.dt))
     }
 
     /// The same compared over as much as springs stiff enough may follow, a perturbation growing
@@ -205,7 +205,7 @@ impl Reference {
         let compared = Compared::new(record, followed, &[&[history.q.len()], lengths].concat());
         let slides = history
             .first_sliding_landing_s
-            .is_some_and(|time| compared.samples == history.samples_to(time));
+            .is_some_and(|time| compared.samples == samples_until(Some(time), history.dt));
         let end = if compared.end == ComparedEnd::Foretold && slides {
             ComparedEnd::Slides
         } else {

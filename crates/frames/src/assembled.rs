@@ -14,7 +14,11 @@ use super::{
     standing::Standing,
     structure::ElasticStructure,
 };
-use rocking::{members::Members, motion::nrmse_of, scalar::GRAVITY};
+use rocking::{
+    members::Members,
+    motion::{nrmse_of, samples_until},
+    scalar::GRAVITY,
+};
 
 /// Stiffness of the ground over all mass, on which a leaning structure is looked for before it is
 /// put on rigid ground: its weight settles by g/FIRM, 1e-8 m [1/s2].
@@ -185,7 +189,9 @@ impl Assembled {
         limit: f64,
     ) -> usize {
         let grown = self.grown(ground, q, history, limit);
-        history.first_sliding_landing_s.map_or(grown, |time| grown.min(history.samples_to(time)))
+        history
+            .first_sliding_landing_s
+            .map_or(grown, |time| grown.min(samples_until(Some(time), history.dt)))
     }
 
     /// Coordinates whose growth tells of the conditioning: rotations of footings and the tops'

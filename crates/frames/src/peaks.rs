@@ -9,7 +9,12 @@
 //!   error          | peak - peak of the reference | / peak of the reference
 //! ```
 
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
+
+use rocking::{
+    json::{null_as_infinite, null_as_lost},
+    statistics::largest,
+};
 
 use super::assembled::{Assembled, Watched};
 
@@ -41,16 +46,6 @@ pub struct StructurePeakErrors {
     /// compared: beside springs at 4 Omega_n.
     #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "null_as_lost")]
     pub design_forces: Option<f64>,
-}
-
-/// JSON has no infinity: it is written as null.
-fn null_as_infinite<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
-}
-
-/// The same where there may be nothing: what is absent was not compared.
-fn null_as_lost<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
-    null_as_infinite(deserializer).map(Some)
 }
 
 impl StructurePeaks {
@@ -103,7 +98,7 @@ impl StructurePeakErrors {
     /// The largest of them.
     pub fn largest(&self) -> f64 {
         let all = [self.displacement, self.drift, self.uplift];
-        all.into_iter().chain(self.design_forces).fold(0.0, f64::max)
+        largest(all.into_iter().chain(self.design_forces))
     }
 
     /// A statistic of each over several histories; of the design forces only if all have them.

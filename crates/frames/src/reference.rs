@@ -280,11 +280,6 @@ impl ElasticRocking {
         self.events.iter().find(|event| event.what == What::Lift).map(|event| event.time)
     }
 
-    /// Samples up to a time (s).
-    pub(crate) fn samples_to(&self, time: f64) -> usize {
-        (time / self.dt) as usize + 1
-    }
-
     /// Landings.
     pub fn landings(&self) -> impl Iterator<Item = &ReferenceEvent> {
         self.events.iter().filter(|event| event.what == What::Land)

@@ -13,8 +13,7 @@ use rocking::{
     conditioning::Conditioning,
     housner::{self, Rocking},
     members::Members,
-    motion::{Motion, TimedPeak},
-    overturning::samples_until,
+    motion::{Motion, TimedPeak, samples_until},
     structure::Body,
 };
 use strong_motion::Record;

@@ -31,6 +31,7 @@ impl Parameters {
         if let Some(value) = self.restitution.filter(|e| !(0.0..=1.0).contains(e)) {
             return Err(ParametersError::Restitution { path: path.to_string(), value });
         }
+        self.program.iter().try_for_each(|row| row.check(path))?;
         let program = self.program.iter();
         let program = program.flat_map(|p| {
             [("program.vertical", &p.units.vertical), ("program.horizontal", &p.units.horizontal)]

@@ -210,20 +210,23 @@ impl ElasticParameters {
         let structure = parameters.structure.checked().map_err(|e| value(e.to_string()))?;
         structure.bears(parameters.members()).map_err(|e| value(e.to_string()))?;
         let corners = structure.layout().corners.len();
-        if parameters.springs.len() != corners {
-            let found = parameters.springs.len();
-            return Err(value(format!(
-                "springs has {found} rows, the structure {corners} corners; run tune run again"
-            )));
-        }
-        if let Some(i) =
-            parameters.springs.iter().position(|row| !row.vertical.good() || !row.horizontal.good())
-        {
-            return Err(value(format!(
-                "springs, row {}: k1, k2 and m2 must be finite and above zero, c zero or more; run \
-                 tune run again",
-                i + 1
-            )));
+        parameters.program.iter().try_for_each(|row| row.check(path))?;
+        let program = parameters.program.iter().map(|row| ("program.springs", &row.units.springs));
+        for (key, rows) in [("springs", &parameters.springs)].into_iter().chain(program) {
+            if rows.len() != corners {
+                let found = rows.len();
+                return Err(value(format!(
+                    "{key} has {found} rows, the structure {corners} corners; run tune run again"
+                )));
+            }
+            let bad = |row: &CornerRow| !row.vertical.good() || !row.horizontal.good();
+            if let Some(i) = rows.iter().position(bad) {
+                return Err(value(format!(
+                    "{key}, row {}: k1, k2 and m2 must be finite and above zero, c zero or more; \
+                     run tune run again",
+                    i + 1
+                )));
+            }
         }
         Ok(parameters)
     }

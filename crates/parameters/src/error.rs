@@ -42,6 +42,8 @@ pub enum ParametersError {
          tune again"
     )]
     Schema { path: String, schema: u32 },
+    #[error("{path}: program.{key} is {value}; {remedy}")]
+    Program { path: String, key: &'static str, value: String, remedy: String },
     #[error("{path}: record.{name} is {value:?}; give a finite number greater than zero")]
     Record { path: String, name: &'static str, value: f64 },
     #[error("{path}: restitution is {value}; a velocity ratio lies between 0 and 1")]

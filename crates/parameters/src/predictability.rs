@@ -9,7 +9,7 @@ use dynamics::fem::{Analysis, History};
 use rocking::{
     conditioning::Conditioning,
     housner::RockingOptions,
-    motion::{Motion, nrmse},
+    motion::{Motion, nrmse, samples_until},
     scalar::GRAVITY,
     structure::Structure,
 };
@@ -80,8 +80,7 @@ pub fn foretold_until(motion: &Motion, changed: &Motion) -> Option<Foretold> {
 
 /// Up to where the run found that it can be foretold (s), of samples dt apart (s).
 pub fn until_time(until: f64, dt: f64) -> Foretold {
-    let samples = (until / dt).round() as usize + 1;
-    Foretold { samples, end: ForetoldEnd::IllConditioned }
+    Foretold { samples: samples_until(Some(until), dt), end: ForetoldEnd::IllConditioned }
 }
 
 /// How many samples that is.

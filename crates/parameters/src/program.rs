@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::corner::CornerRow;
+use super::{ParametersError, corner::CornerRow};
+use cases::program::ProgramSection;
 use dynamics::spring::{Chain, ChainRow, Springs};
 use fixed_steps::{
     ConvergenceTest, FixedStepProgram, Integrator, Iteration, ProgramName, StepSettings,
@@ -257,6 +258,26 @@ pub fn round_step(step: f64) -> f64 {
 }
 
 impl<U> ProgramRow<U> {
+    /// Whether a program can step so; `path` names the file in messages.
+    ///
+    /// # Errors
+    /// A name, a step, an integrator, a number of substeps that cannot be.
+    pub(crate) fn check(&self, path: &str) -> Result<(), ParametersError> {
+        let section = ProgramSection {
+            name: self.name.clone(),
+            step_s: Some(self.step_s),
+            integrator: Some(self.integrator.clone()),
+            substeps: Some(self.substeps),
+        };
+        let mistake = |(key, value, remedy)| ParametersError::Program {
+            path: path.to_string(),
+            key,
+            value,
+            remedy,
+        };
+        section.checked().map(|_| ()).map_err(mistake)
+    }
+
     /// The program in words.
     pub fn program(&self) -> String {
         self.known().map_or_else(|| "a program".into(), |name| name.words().into())

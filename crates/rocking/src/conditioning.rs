@@ -16,7 +16,7 @@ use crate::housner::{
     Rocking, RockingOptions, RockingOutcome, solve, solve_lanes, solve_with_derivatives,
 };
 use crate::motion::nrmse;
-use crate::overturning::samples_until;
+use crate::motion::samples_until;
 use crate::structure::Body;
 
 /// From this sensitivity on, by the derivative or by finite changes, histories cannot be compared

@@ -31,7 +31,7 @@ mod root;
 mod series;
 mod walk;
 
-use crate::motion::Motion;
+use crate::motion::{Motion, samples_until};
 use crate::scalar::{GRAVITY, Scalar, real};
 use crate::structure::Body;
 use std::sync::Arc;
@@ -248,7 +248,7 @@ fn setting<'a, S: Scalar>(
     let radius = body.radius();
     walk::Setting {
         dt,
-        accel: &accel[..samples(dt, accel.len(), options.duration)],
+        accel: &accel[..samples_until(options.duration, dt).min(accel.len())],
         vertical: options.vertical.as_deref().unwrap_or_default(),
         unit: options.scale / GRAVITY,
         alpha: body.alpha(),
@@ -267,15 +267,6 @@ fn setting<'a, S: Scalar>(
 pub fn topples(body: &Body<f64>, theta: f64, rate: f64) -> bool {
     let options = RockingOptions { initial: Some((theta, rate)), ..RockingOptions::default() };
     solve(body, 1.0, &[0.0], &options).overturned().is_some()
-}
-
-/// Number of samples up to a duration, the one at its end included.
-fn samples(dt: f64, len: usize, duration: Option<f64>) -> usize {
-    match duration {
-        // a duration that is a multiple of dt but for rounding counts as one
-        Some(duration) => len.min(((duration / dt) * (1.0 + 1e-12)) as usize + 1),
-        None => len,
-    }
 }
 
 impl<S> Rocking<S> {

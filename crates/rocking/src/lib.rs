@@ -9,6 +9,7 @@ use elementary as _;
 
 pub mod conditioning;
 pub mod housner;
+pub mod json;
 pub mod members;
 pub mod motion;
 pub mod overturning;

@@ -104,6 +104,13 @@ pub fn shown(nrmse: f64) -> String {
     format!("{nrmse:.decimals$}")
 }
 
+/// Samples dt (s) apart up to a time (s), if there is one, the one at that time included; at least
+/// the first. 1e-6 of a step: 20 s at 0.01 s are 2001 samples although 20/0.01 may round to below
+/// 2000.
+pub fn samples_until(time: Option<f64>, dt: f64) -> usize {
+    time.map_or(usize::MAX, |time| ((time / dt + 1e-6) as usize).saturating_add(1))
+}
+
 /// The largest |x|, with its sign; zero for an empty slice.
 pub fn peak(x: &[f64]) -> f64 {
     x.iter().copied().fold(0.0, |best: f64, x| if x.abs() > best.abs() { x } else { best })
@@ -120,6 +127,17 @@ pub fn peak_index(x: &[f64]) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn samples_up_to_a_samples_time_are_those_up_to_it() {
+        for dt in [0.005, 0.01, 0.02] {
+            assert!((0..4000).all(|i| samples_until(Some(i as f64 * dt), dt) == i + 1));
+        }
+        // as a screen shows times
+        let shown = |i: usize| (i as f64 * 5.0).round() / 1e3;
+        assert!((0..4000).all(|i| samples_until(Some(shown(i)), 0.005) == i + 1));
+        assert_eq!((samples_until(Some(0.035), 0.01), samples_until(None, 0.01)), (4, usize::MAX));
+    }
 
     #[test]
     fn nrmse_of_a_scaled_copy_is_the_scale_error() {

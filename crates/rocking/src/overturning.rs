@@ -26,11 +26,6 @@ pub fn overturned(body: &Body<f64>, dt: f64, theta: &[f64]) -> Option<f64> {
     Some((i as f64 + (alpha - from) / (to - from)) * dt)
 }
 
-/// Samples up to a time, if there is one; at least the first.
-pub fn samples_until(time: Option<f64>, dt: f64) -> usize {
-    time.map_or(usize::MAX, |time| (time / dt) as usize + 1)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -62,6 +57,5 @@ mod tests {
         assert!(overturned(&body, 0.01, &[0.0, 1.1 * alpha + 1e-5, 1.1 * alpha]).is_some());
         assert_eq!(overturned(&body, 0.01, &[]), None);
         assert_eq!(overturned(&body, 0.01, &[2.0 * alpha]), Some(0.0));
-        assert_eq!((samples_until(Some(0.035), 0.01), samples_until(None, 0.01)), (4, usize::MAX));
     }
 }

@@ -27,7 +27,7 @@
 
 use crate::housner::Rocking;
 use crate::motion::TimedPeak;
-use crate::overturning::samples_until;
+use crate::motion::samples_until;
 use crate::scalar::GRAVITY;
 use crate::structure::Body;
 

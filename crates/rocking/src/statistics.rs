@@ -10,6 +10,12 @@ pub fn quantile(sorted: &[f64], q: f64) -> Option<f64> {
     x.is_finite().then_some(x)
 }
 
+/// The largest of magnitudes; zero of none, infinite where one is not a number.
+pub fn largest(magnitudes: impl IntoIterator<Item = f64>) -> f64 {
+    let sure = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
+    magnitudes.into_iter().map(sure).fold(0.0, f64::max)
+}
+
 /// Two-sample Kolmogorov-Smirnov distance: the largest difference of the two empirical
 /// distributions; ties are one step.
 pub fn ks_distance(a: &[f64], b: &[f64]) -> f64 {

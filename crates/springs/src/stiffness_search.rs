@@ -13,7 +13,7 @@ use super::{
     ladder::{DECADE, FoundRung, seek},
     suite::{JudgedOn, MeasuredErrors, Suites},
 };
-use cases::{Asked, Yardstick};
+use cases::Asked;
 use dynamics::{
     effort::Effort,
     fem::Control,
@@ -28,8 +28,6 @@ pub(crate) const SOFTEST: f64 = 100.0;
 /// about as 20/(Omega_n/p), those of earthquake-like ones, with three standard errors, are about
 /// five times what is allowed at 250/(Omega_n/p).
 const BEGIN: f64 = 250.0;
-/// The same of an error of peaks.
-const BEGIN_PEAKS: f64 = 250.0;
 /// How near an Omega_n/p is to a rung to be it, rungs.
 const ROUNDING: f64 = 1e-9;
 /// An accuracy for which steps over several samples will do.
@@ -165,8 +163,7 @@ fn in_order(seen: &BTreeMap<i64, Rung>, i: i64, allowed: Asked) -> Vec<JudgedOn>
 
 /// The Omega_n/p at which a search for this error begins.
 pub fn begin(asked: Asked) -> f64 {
-    let begin = if asked.by == Yardstick::Histories { BEGIN } else { BEGIN_PEAKS };
-    begin / asked.error
+    BEGIN / asked.error
 }
 
 /// The stiffest Omega_n/p of the ladder up to this one.

@@ -15,7 +15,7 @@ use dynamics::{
 };
 use rocking::{
     housner::{self, Rocking},
-    overturning::samples_until,
+    motion::samples_until,
     structure::Body,
 };
 use strong_motion::Record;

@@ -19,18 +19,24 @@
 use serde::{Deserialize, Serialize};
 
 use dynamics::fem::MOMENT;
-use rocking::{housner::Rocking, scalar::GRAVITY, structure::Body};
+use rocking::{
+    housner::Rocking, json::null_as_infinite, scalar::GRAVITY, statistics::largest, structure::Body,
+};
 
 /// Relative errors of a history's peaks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PeakErrors {
     /// Of the largest |u|.
+    #[serde(deserialize_with = "null_as_infinite")]
     pub displacement: f64,
     /// Of the largest uplift of a foot.
+    #[serde(deserialize_with = "null_as_infinite")]
     pub uplift: f64,
     /// Of the largest horizontal force of the ground between landings.
+    #[serde(deserialize_with = "null_as_infinite")]
     pub base_shear: f64,
     /// Of the largest vertical force of the ground between landings.
+    #[serde(deserialize_with = "null_as_infinite")]
     pub axial: f64,
 }
 
@@ -58,7 +64,7 @@ impl PeakErrors {
     /// The largest of the four. The moment at the base goes with the axial force: it is N b on one
     /// foot.
     pub fn largest(&self) -> f64 {
-        self.all().into_iter().fold(0.0, f64::max)
+        largest(self.all())
     }
 }
 

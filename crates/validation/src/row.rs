@@ -10,7 +10,7 @@ use dynamics::{
     spring::{Chain, Springs},
 };
 use rocking::{
-    conditioning::Conditioning, housner, overturning::samples_until, regime, structure::Body,
+    conditioning::Conditioning, housner, motion::samples_until, regime, structure::Body,
 };
 use strong_motion::{Record, Source};
 
@@ -184,8 +184,9 @@ impl HistoryEnd {
             }
             fem::HistoryOutcome::WorkBound { .. } | fem::HistoryOutcome::Unstable { .. } => None,
         };
-        let residual = (stream.residual / finish.energy_scale).min(f64::MAX);
-        Self { overturned, energy_residual: Some(residual) }
+        let residual = stream.residual / finish.energy_scale;
+        let energy_residual = (!residual.is_nan()).then(|| residual.min(f64::MAX));
+        Self { overturned, energy_residual }
     }
 }
 

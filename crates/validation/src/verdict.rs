@@ -8,7 +8,8 @@ use dynamics::fem::{self, History};
 use rocking::{
     conditioning::Conditioning,
     housner::{self, Rocking},
-    overturning::{overturned, samples_until},
+    motion::samples_until,
+    overturning::overturned,
     structure::Body,
 };
 

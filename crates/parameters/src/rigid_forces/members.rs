@@ -8,7 +8,7 @@ use super::relative;
 use crate::answers::{MemberHistory, ModelComparison};
 use dynamics::fem::Demands;
 use results::{DesignForce, DesignForces};
-use rocking::{motion::TimedPeak, overturning::samples_until};
+use rocking::motion::{TimedPeak, samples_until};
 
 /// The tendon's column of a row of [`Demands`].
 const TENDON: usize = 7;

@@ -4,7 +4,7 @@ use super::{ElasticParts, top_height};
 use crate::predictable_to;
 use ::results::{FiledFinding, PartsOfTop, PeakPair, PeakTimes, Peaks};
 use frames::{answer::ElasticHistories, assembled::Sway, frame::Frame};
-use rocking::{motion::TimedPeak, overturning::samples_until};
+use rocking::motion::{TimedPeak, samples_until};
 
 /// Time within which touches are one impact (1/p).
 pub const SAME_IMPACT: f64 = 0.1;

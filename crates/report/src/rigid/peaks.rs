@@ -4,7 +4,7 @@ use dynamics::{compare::Match, fem::History};
 use parameters::answers::ModelComparison;
 use results::{PeakPair, Peaks};
 use rocking::{
-    overturning::samples_until,
+    motion::samples_until,
     structure::{Body, Kind},
 };
 

@@ -2,7 +2,7 @@
 //! structure, earthquake-like motions, and the record at hand, each over the part in which the
 //! reference can be predicted.
 
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 
 use super::{
     design::CornerSprings,
@@ -15,7 +15,7 @@ use frames::{
     answer::Reference, assembled::Assembled, design_forces::ColumnForces, fem::default_control,
     peaks::StructurePeakErrors,
 };
-use rocking::synthetic;
+use rocking::{json::nulls_as_infinite, statistics::largest, synthetic};
 use strong_motion::Record;
 
 /// Leans that the structure is released from, over alpha.
@@ -36,10 +36,10 @@ pub const LOOSER: f64 = 5.0;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ElasticErrors {
     /// Median of rotations, of sways.
-    #[serde(deserialize_with = "null_as_infinite")]
+    #[serde(deserialize_with = "nulls_as_infinite")]
     pub median: [f64; 2],
     /// 90 % of them are below it.
-    #[serde(deserialize_with = "null_as_infinite")]
+    #[serde(deserialize_with = "nulls_as_infinite")]
     pub p90: [f64; 2],
     /// Histories compared.
     pub count: usize,
@@ -54,7 +54,7 @@ pub struct ElasticErrors {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ElasticPeaks {
     /// Of the peak with the largest error, history by history: median, and what 90 % are below.
-    #[serde(deserialize_with = "null_as_infinite")]
+    #[serde(deserialize_with = "nulls_as_infinite")]
     pub largest: [f64; 2],
     /// Median of each.
     pub median: StructurePeakErrors,
@@ -89,12 +89,6 @@ impl ElasticPeaks {
     }
 }
 
-/// JSON has no infinity: it is written as null.
-fn null_as_infinite<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 2], D::Error> {
-    let given: [Option<f64>; 2] = Deserialize::deserialize(deserializer)?;
-    Ok(given.map(|value| value.unwrap_or(f64::INFINITY)))
-}
-
 impl ElasticErrors {
     /// The largest in units of what is allowed; infinite where peaks were asked for and not
     /// measured.
@@ -106,7 +100,7 @@ impl ElasticErrors {
         let allowed = [accuracy, LOOSER * accuracy];
         let each =
             (0..2).map(|i| (self.median[i] / allowed[i]).max(self.p90[i] / (LOOSER * allowed[i])));
-        each.fold(0.0, f64::max)
+        largest(each)
     }
 }
 

@@ -3,11 +3,16 @@
 use serde::{Deserialize, Serialize};
 
 use cases::{Asked, Yardstick};
+use rocking::{
+    json::{null_as_infinite, null_as_lost},
+    statistics::largest,
+};
 use validation::PeakErrors;
 
 /// A statistic of errors (NRMSE of u), and over how many motions.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Statistic {
+    #[serde(deserialize_with = "null_as_infinite")]
     pub value: f64,
     pub count: usize,
 }
@@ -22,7 +27,7 @@ fn is_zero(count: &usize) -> bool {
 pub struct Accuracy {
     /// NRMSE of u or v, the larger, on the record at hand, if Housner's answer to it is well
     /// conditioned.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "null_as_lost")]
     pub record: Option<f64>,
     /// Median over the well-conditioned of the synthetic motions made for the structure.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -38,7 +43,7 @@ pub struct Accuracy {
     pub earthquakes_scaled_down: usize,
     /// The same with three standard errors on top: more than other earthquakes are likely to give,
     /// and what Omega_n is chosen by.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "null_as_lost")]
     pub earthquakes_upper: Option<f64>,
 }
 
@@ -76,7 +81,7 @@ impl Accuracy {
     /// The largest error, in units of what an accuracy allows: at most 1 if it is surely reached; 0
     /// if nothing was measured.
     pub(crate) fn over(&self, accuracy: f64) -> f64 {
-        JudgedOn::ALL.iter().filter_map(|suite| self.over_on(*suite, accuracy)).fold(0.0, f64::max)
+        largest(JudgedOn::ALL.iter().filter_map(|suite| self.over_on(*suite, accuracy)))
     }
 
     /// The same on one suite; `None` where it was not measured.
@@ -97,7 +102,7 @@ impl Accuracy {
     }
 }
 
-/// The errors of the largest displacement, uplift and forces between landings (`validate::peaks`),
+/// The errors of the largest displacement, uplift and forces between landings (`validation::peaks`),
 /// on the same motions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PeakAccuracy {

@@ -10,7 +10,7 @@ use dynamics::{
 use rocking::{
     conditioning::{CHANGES, ILL_CONDITIONED, changes, moved_by_width, sensitivity},
     housner::{self, Rocking, RockingOptions},
-    overturning::samples_until,
+    motion::samples_until,
     regime,
     structure::Body,
 };
