@@ -59,9 +59,7 @@ impl AssumedQuantity {
             Self::ShearStiffness => "GA_s of a solid section, nu = 0.2,",
             Self::AxialDamping => "axial damping ratio, as across,",
             Self::ColumnMass => "column's mass",
-            Self::BeamMassAtJoints => {
-                "no gravity moments: beam's mass and its inertia at the joints, each"
-            }
+            Self::BeamMassAtJoints => "no gravity moments: half of the beam's mass at each joint,",
             Self::Elements => "elements to a column",
             Self::ElCentro => "1940 El Centro, north-south, peak",
             Self::NoVertical => "vertical motion left out, peak",

@@ -21,24 +21,32 @@ impl ElasticStructure {
     pub fn layout(&self) -> FrameLayout {
         match self {
             Self::Pier(pier) => pier.finite().layout(),
-            Self::AFrame(frame) => frame.finite().layout(),
-            Self::Frame(frame) => frame.finite().layout(),
+            Self::AFrame(frame) => frame.finite(self.damping_share(frame.damping_ratio)).layout(),
+            Self::Frame(frame) => frame.finite(self.damping_share(frame.damping_ratio)).layout(),
         }
     }
 
     /// Lowest frequency of the structure fixed to the ground, under its weight, as it is modelled
-    /// (Hz): in closed form; of a portal that of its finite elements, for the closed form leaves
-    /// out the rotational inertia of the beam's ends.
+    /// (Hz): of a pier in closed form, of frames that of their finite elements, for closed forms
+    /// leave out the rotational inertia at the top, and how columns shorten or legs bend.
     pub fn fixed_base_frequency_hz(&self) -> f64 {
-        let of_elements = || {
-            let frame = self.layout().fixed().frame().ok()?;
+        let layout = match self {
+            Self::Pier(pier) => return pier.frequency(),
+            Self::AFrame(frame) => frame.finite(0.0).layout(),
+            Self::Frame(frame) => frame.finite(0.0).layout(),
+        };
+        let lowest = || {
+            let frame = layout.fixed().frame().ok()?;
             let standing = frame.standing(&[]).ok()?;
             frame.frequencies(&standing).first().copied()
         };
-        match self {
-            Self::Frame(_) => of_elements().unwrap_or_else(|| self.frequency_hz()),
-            _ => self.frequency_hz(),
-        }
+        lowest().unwrap_or_else(|| self.frequency_hz())
+    }
+
+    /// Damping over stiffness (s) at which the lowest mode of the structure fixed to the ground has
+    /// a ratio to critical damping.
+    fn damping_share(&self, ratio: f64) -> f64 {
+        2.0 * ratio / (TAU * self.fixed_base_frequency_hz())
     }
 }
 
@@ -52,7 +60,8 @@ impl ElasticStructure {
             }
             Self::Frame(frame) if frame.column_mass_kg > 0.0 => {
                 let Portal { height, mass, inertia, footing, column, .. } =
-                    PortalSpec { elements: Some(elements), ..*frame }.finite();
+                    PortalSpec { elements: Some(elements), ..*frame }
+                        .finite(self.damping_share(frame.damping_ratio));
                 Some(
                     Cantilever {
                         mass,
@@ -118,8 +127,8 @@ impl PierSpec {
 }
 
 impl AFrameSpec {
-    fn finite(&self) -> LeggedFrame {
-        let share = 2.0 * self.damping_ratio / (TAU * self.frequency());
+    /// Its model, of this damping over stiffness (s).
+    fn finite(&self, share: f64) -> LeggedFrame {
         let section = BeamSection {
             axial: self.ea_n,
             bending: self.ei_nm2,
@@ -140,8 +149,8 @@ impl AFrameSpec {
 }
 
 impl PortalSpec {
-    fn finite(&self) -> Portal {
-        let share = 2.0 * self.damping_ratio / (TAU * self.frequency());
+    /// Its model, of this damping over the stiffness in bending (s).
+    fn finite(&self, share: f64) -> Portal {
         let (mass, inertia) = self.top();
         let section = |ea: f64, ei: f64, length: f64, mass: f64, line_mass: f64| BeamSection {
             axial: ea,

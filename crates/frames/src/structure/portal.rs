@@ -109,11 +109,11 @@ impl PortalSpec {
         self.column_ga_n.unwrap_or(unless_given)
     }
 
-    /// Mass at a column's top (kg), and its rotational inertia: half of the beam about the column's
-    /// axis (kg m2).
+    /// Mass at a column's top (kg), and its rotational inertia (kg m2): m span^2/420 of the beam's
+    /// mass m, the share of either end where a beam bends in an S, as one does when a frame sways
+    /// (Przemieniecki, *Theory of Matrix Structural Analysis*, table 11.1: both ends turn alike).
     pub(crate) fn top(&self) -> (f64, f64) {
-        let half = 0.5 * self.beam_mass_kg;
-        (half, half * (0.5 * self.span_m).powi(2) / 3.0)
+        (0.5 * self.beam_mass_kg, self.beam_mass_kg * self.span_m.powi(2) / 420.0)
     }
 
     /// Beam elements to a column.
