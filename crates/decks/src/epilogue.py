@@ -53,6 +53,8 @@ def main():
     for key, value in EXPECTED.items():
         print(f"  {key:8s} {found[key] * 1e3:12.4f} mm, expected {value * 1e3:12.4f} mm")
     print(f"within 1 %: {'yes' if good else 'no'}")
+    if len(rows) < SAMPLES:
+        stop(f"no convergence after {rows[-1][0]:g} s of {(SAMPLES - 1) * RECORD_DT:g} s; up to {(COMPARED - 1) * RECORD_DT:g} s it is judged above")
     return 0 if good else 1
 
 

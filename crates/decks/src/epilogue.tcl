@@ -87,4 +87,8 @@ foreach {key value} $expected {
     puts [format "  %-8s %12.4f mm, expected %12.4f mm" $key [expr {$found($key) * 1e3}] [expr {$value * 1e3}]]
 }
 puts "within 1 %: [expr {$good ? {yes} : {no}}]"
+if {[llength $rows] < $samples} {
+    set judged [expr {($compared - 1) * $recordDt}]
+    stop "no convergence after [lindex $rows end 0] s of [expr {($samples - 1) * $recordDt}] s; up to $judged s it is judged above"
+}
 exit [expr {1 - $good}]
