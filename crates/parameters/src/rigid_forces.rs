@@ -28,8 +28,7 @@ use frames::design_forces::HeldForce;
 use results::{DesignForce, DesignForces};
 use rocking::{
     housner::Rocking,
-    motion::TimedPeak,
-    overturning::samples_until,
+    motion::{TimedPeak, samples_until},
     regime::{self, ground_forces},
     scalar::GRAVITY,
     structure::{Body, Kind},
@@ -57,7 +56,7 @@ pub fn design_forces(
             let peaks = |matched: &Match, history: &History, demands: &Demands| {
                 let samples = until([matched.overturned_fem_s, None]).min(history.motion.len());
                 let kept = all_between(body, dt, history, samples);
-                let mut peaks = on_springs(kind, body, dt, (history, demands), &kept);
+                let mut peaks = on_springs(kind, body, dt, demands, &kept);
                 let (of, members) = ((history, demands), both.with.is_some());
                 let near = near_landings((kind, body), record, of, &kept, members);
                 let near = near.iter().filter(|(i, _)| *i < samples);
@@ -81,7 +80,7 @@ pub fn design_forces(
             let samples = until([both.matched.overturned_housner_s, both.matched.overturned_fem_s]);
             let housner = of_housner(kind, body, record, &both.rocking, samples);
             let kept = all_between(body, dt, &both.fem, samples.min(housner.len()));
-            let springs = on_springs(kind, body, dt, (&both.fem, &both.demands), &kept);
+            let springs = on_springs(kind, body, dt, &both.demands, &kept);
             let force = |k: usize| {
                 let series: Vec<f64> = housner.iter().map(|row| row.largest(k)).collect();
                 let all = TimedPeak::of(dt, &series).unwrap_or_default();
@@ -168,24 +167,30 @@ fn of_housner(
     forces.into_iter().enumerate().take(samples).map(row).collect()
 }
 
-/// Largest shear at the sole, column shear, moment and axial force of a history on springs, over
-/// these samples.
+/// Largest shear at the sole, column shear, moment and axial force of a history on springs, at
+/// these samples: between them springs ring after a foot stops or slips, by as much whatever their
+/// stiffness.
 fn on_springs(
     kind: Kind,
     body: &Body<f64>,
     dt: f64,
-    (history, demands): (&History, &Demands),
+    demands: &Demands,
     kept: &[usize],
 ) -> [TimedPeak; 4] {
     let mut peaks = [TimedPeak::default(); 4];
-    let [sum, difference] = &history.forces.both;
     for &i in kept {
-        let row = &demands.rows[i];
+        let row = &demands.at[i];
+        let [[left_h, left], [right_h, right]] = demands.feet[i];
+        // pressing with both feet it does not turn, and what its springs swing by is not its own
+        let moment = match left.min(right) > 0.0 {
+            true => (left_h + right_h) * body.height,
+            false => (left - right) * body.half_width,
+        };
         // each is that of one instant
         let all = match kind {
             Kind::AFrame => [2, 3, 1]
                 .map(|k| if row[k].abs() >= row[k + 3].abs() { row[k] } else { row[k + 3] }),
-            Kind::Block => [row[0], difference[i] * body.half_width, -sum[i]],
+            Kind::Block => [row[0], moment, -(left + right)],
         };
         for (peak, value) in peaks.iter_mut().zip([row[0], all[0], all[1], all[2]]) {
             if value.abs() > peak.value.abs() {

@@ -156,12 +156,14 @@ const SUMMARY: [SummaryRow; 7] = [
 ];
 
 /// `summary.csv`: largest displacements and design forces as plain numbers, SI units; cells of what
-/// is withheld are empty. `holds_to_s`: up to when a number counts, if that is not all of the
-/// record; `time_s`: when it is, on springs; `predictable`: whether the motion is, up to then.
+/// is withheld are empty. `with_members`: of a rigid body with members, of which its forces are;
+/// `holds_to_s`: up to when a number counts, if that is not all of the record; `time_s`: when it
+/// is, with members, or on springs; `predictable`: whether the motion is, up to then.
 pub fn summary(run: &Run) -> Table {
-    let head = ["quantity", "unit", "reference", "on_springs", "holds_to_s", "time_s"];
+    let head =
+        ["quantity", "unit", "reference", "on_springs", "with_members", "holds_to_s", "time_s"];
     let mut table = Table::new(head.into_iter().chain(["predictable"]));
-    let mut row = |name: &str, unit: &str, numbers: [Option<f64>; 4], sure: Option<bool>| {
+    let mut row = |name: &str, unit: &str, numbers: [Option<f64>; 5], sure: Option<bool>| {
         let cell = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x:.6e}"));
         let sure = sure.map_or(String::new(), |sure| sure.to_string());
         let cells = numbers.map(cell).into_iter().chain([sure]);
@@ -172,7 +174,8 @@ pub fn summary(run: &Run) -> Table {
         let springs = pair.with_members.unwrap_or(pair.springs);
         let ends = pair.with_members_end_s;
         for (name, of, unit, when) in SUMMARY {
-            let [a, b] = [&pair.reference, &springs].map(|peaks| of(peaks).map(exact));
+            let [a, b] = [&pair.reference, &pair.springs].map(|peaks| of(peaks).map(exact));
+            let with = pair.with_members.and_then(|with| of(&with).map(exact));
             // of a history that ends early no largest value is known
             let b = b.filter(|_| pair.springs_end_s.is_none());
             let timed = if pair.springs_end_s.is_some() { &pair.reference } else { &springs };
@@ -180,7 +183,7 @@ pub fn summary(run: &Run) -> Table {
             let sure = time.map(|time| until.is_none_or(|until| time <= until));
             let time = time.filter(|time| time.is_finite());
             if a.or(b).is_some() {
-                row(name, unit, [a, b, ends, time], sure);
+                row(name, unit, [a, b, with, ends, time], sure);
             }
         }
     }
@@ -190,7 +193,9 @@ pub fn summary(run: &Run) -> Table {
         let reference =
             force.rigid.filter(|_| !matches!(run.parameters, FiledParameters::Elastic(_)));
         let time = Some(force.time_s).filter(|_| force.holds);
-        let numbers = [reference, force.value, force.over_s, time];
+        let [springs, with] =
+            if run.has_members() { [None, force.value] } else { [force.value, None] };
+        let numbers = [reference, springs, with, force.over_s, time];
         row(words(name), name.unit(), numbers, force.predictable.filter(|_| force.holds));
     }
     table

@@ -92,18 +92,20 @@ impl ElasticParts<'_> {
         let forces = &self.answer.histories.reference.history.forces;
         let sizes: Vec<usize> =
             frame.places().chunk_by(|a, b| a.shares_node(b)).map(<[_]>::len).collect();
-        let share = frame.total_mass() * rocking::scalar::GRAVITY / sizes.len().max(1) as f64;
         let mut most = (TimedPeak::default(), 0.0);
         for (i, corners) in forces.iter().enumerate() {
             let mut first = 0;
             for size in &sizes {
-                let footing = &corners[first..first + size];
+                let sum =
+                    |corners: &[[f64; 2]], k: usize| corners.iter().map(|f| f[k]).sum::<f64>();
+                let [h, n] = [0, 1].map(|k| sum(&corners[first..first + size], k));
+                // what it bears at rest, its tendon's tension included
+                let at_rest = sum(&forces[0][first..first + size], 1);
                 first += size;
-                let [h, n] = [0, 1].map(|k| footing.iter().map(|force| force[k]).sum::<f64>());
                 let needed = (h / n).abs();
-                if n > LEAST_PRESS * share && needed > most.0.value {
+                if n > LEAST_PRESS * at_rest && needed > most.0.value {
                     let time = i as f64 * self.record.dt;
-                    most = (TimedPeak { value: needed, time }, n / share);
+                    most = (TimedPeak { value: needed, time }, n / at_rest);
                 }
             }
         }

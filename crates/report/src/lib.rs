@@ -95,10 +95,13 @@ fn changes(
         without,
         with,
     };
-    // the reference's, which springs may follow badly; unless it ends before the record
+    // with members, theirs; else the reference's, which springs may follow badly, unless it ends
+    // before the record
     let whole = peaks.iter().chain([&with_peaks]).all(|pair| pair.reference_ends_s.is_none());
-    let top =
-        |pair: &PeakPair| if whole { pair.reference } else { pair.springs }.top_displacement_m;
+    let top = |pair: &PeakPair| {
+        let without = if whole { pair.reference } else { pair.springs };
+        pair.with_members.unwrap_or(without).top_displacement_m
+    };
     let top = peaks.map(|peaks| change("top displacement", "m", top(&peaks), top(&with_peaks)));
     let with: Vec<_> = with_forces.all().collect();
     let forces = forces.into_iter().flat_map(|forces| forces.all().collect::<Vec<_>>()).filter_map(
@@ -320,7 +323,7 @@ impl Run {
     pub(crate) fn unjudged(&self) -> Option<Unjudged> {
         self.taken.record.as_ref()?;
         let rests = self.findings.iter().any(|filed| match filed.finding {
-            Finding::NeverLifts { .. } => true,
+            Finding::NeverLifts { .. } | Finding::Slides { .. } => true,
             Finding::Stands { share_of_overturning, .. } => share_of_overturning < HARDLY_ROCKS,
             _ => false,
         });

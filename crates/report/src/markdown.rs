@@ -4,6 +4,10 @@ use super::{FiledParameters, Run, Section, Table, peak_table, sentence};
 use files::message::{percent, quantity, significant};
 use results::{DesignForce, DesignForces, ForceName, OtherForces};
 
+/// What the mark "not predictable" of a force means.
+const ONE_OF_MANY: &str = " Not predictable: the motion up to that time is one of many alike, and no \
+                           model tells which; design by many motions.";
+
 /// The whole of it.
 pub fn markdown(run: &Run) -> String {
     let mut out = format!("# Ground springs: {}\n\n{}\n\n", run.taken.structure, run.verdict());
@@ -155,10 +159,9 @@ pub fn forces_to_design_with(run: &Run) -> Option<Section> {
             "{below} A force is given if it changes by less than 5 % with the springs' stiffness \
                 and the mesh, as measured in this run. Column shear is that of the height where it \
                 is largest, axial force that at the base; members.csv has all members. Axial force \
-                is positive in tension. Each is the largest by itself, at its own time{}. Not \
-                predictable: the motion up to that time is one of many alike, and no model tells \
-                which; design by many motions.",
-            if together(run).is_some() { "; what acts together is below" } else { "" }
+                is positive in tension. Each is the largest by itself, at its own time{}.{}",
+            if together(run).is_some() { "; what acts together is below" } else { "" },
+            if run.has_doubted_forces() { ONE_OF_MANY } else { "" }
         )],
         table: Some(Table::new(head).with(forces.all().map(row))),
         notes: on_one_corner(forces).into_iter().collect(),

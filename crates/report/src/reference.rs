@@ -8,9 +8,8 @@ use results::{Ending, Finding, FindingModel, findings::HARDLY_ROCKS};
 use rocking::{
     conditioning::Conditioning,
     housner::{self, Rocking},
-    members::Members,
-    motion::TimedPeak,
-    overturning::samples_until,
+    members::{Friction, Members},
+    motion::{TimedPeak, samples_until},
     regime::{self, Regime},
     scalar::GRAVITY,
     structure::{Body, Structure},
@@ -20,6 +19,10 @@ use validation::verdict::{Answer, Fate, Verdict};
 
 /// Largest rotation, over alpha, of a body that rocks.
 const ROCKS: f64 = 0.02;
+
+/// Slip over the width, and rotation over alpha of a body at rest, below which they are the
+/// springs'.
+const LEAST_SLIP: f64 = 1e-3;
 
 /// Conditioning and regime of Housner's history.
 #[derive(Clone, Copy, Debug)]
@@ -78,9 +81,14 @@ impl HousnerReport {
     /// than they get, so that of those Housner's body still tells.
     #[must_use]
     pub fn with_members(self, body: &Body<f64>, record: &Record, both: &ModelComparison) -> Self {
-        let Some(with) = both.with.as_ref().filter(|with| with.members.friction.is_none()) else {
-            return self;
-        };
+        let Some(with) = &both.with else { return self };
+        let stays = Answer::of_history(body, record.dt, &with.history).fate == Fate::NeverLifted;
+        // how sensitive Housner's history is tells nothing of a body that its members keep down
+        let (lifted, holds_to_s) = (self.lifted && !stays, self.holds_to_s.filter(|_| !stays));
+        let told = Self { lifted, holds_to_s, ..self };
+        if with.members.friction.is_some() {
+            return told;
+        }
         let fallen = samples_until(with.matched.overturned_fem_s, record.dt);
         let samples = fallen.min(with.demands.feet.len());
         let landings = &with.history.landings;
@@ -101,7 +109,7 @@ impl HousnerReport {
             }
         }
         let lands = !landings.is_empty();
-        Self { regime: Regime { friction_needed: needed, ..self.regime }, lands, ..self }
+        Self { regime: Regime { friction_needed: needed, ..self.regime }, lands, ..told }
     }
 
     /// Friction coefficient needed.
@@ -202,6 +210,10 @@ pub(crate) fn verdict(
     };
     let with = both.with.as_ref().map(|with| of_members(structure, record, with));
     let mut all = vec![with.unwrap_or_else(without)];
+    if matches!(all[0], Finding::Stands { .. }) {
+        let with = both.with.as_ref().filter(|with| with.members.friction.is_some());
+        all.extend(with.and_then(|with| left_aside(structure, with)));
+    }
     all.extend(both.with.as_ref().map(|_| Finding::MembersBeside { without: did(housner) }));
     all.extend(verdict.housner_without_vertical.map(|level| Finding::WithoutVertical {
         does: does(&level),
@@ -225,10 +237,17 @@ fn of_members(structure: &Structure, record: &Record, with: &MemberHistory) -> F
     let motion = &with.history.motion;
     let followed_s = motion.len().saturating_sub(1) as f64 * record.dt;
     match answer.fate {
-        Fate::NeverLifted => Finding::NeverLifts {
-            pga_g: record.pga_g(),
-            uplift_g: uplift_g(structure, &with.members),
-        },
+        Fate::NeverLifted => {
+            let (pga_g, uplift_g) = (record.pga_g(), uplift_g(structure, &with.members));
+            let largest_m = motion.u.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
+            let left_m = motion.u.last().map_or(0.0, |u| u.abs());
+            match with.members.friction.filter(|_| largest_m > LEAST_SLIP * structure.width_m) {
+                Some(Friction { coefficient: friction }) => {
+                    Finding::Slides { friction, uplift_g, largest_m, left_m }
+                }
+                None => Finding::NeverLifts { pga_g, uplift_g },
+            }
+        }
         Fate::Overturned => Finding::Overturns {
             time_s: answer.overturned_s.unwrap_or(followed_s),
             reference_s: None,
@@ -246,6 +265,14 @@ fn of_members(structure: &Structure, record: &Record, with: &MemberHistory) -> F
             of_columns: false,
         },
     }
+}
+
+/// How far beside its place a body with friction comes to rest, if it does.
+fn left_aside(structure: &Structure, with: &MemberHistory) -> Option<Finding> {
+    let motion = &with.history.motion;
+    let (left_m, theta) = (motion.u.last()?.abs(), motion.theta.last()?.abs());
+    let rests = theta < LEAST_SLIP * structure.body::<f64>().alpha();
+    (rests && left_m > LEAST_SLIP * structure.width_m).then_some(Finding::LeftAside { left_m })
 }
 
 /// Ground acceleration (g) that lifts a body: b/h, and with a tendon of tension T, which the feet

@@ -224,16 +224,19 @@ impl RigidRun {
         let regime = regime::check(&job.body, record.dt, ground, 1.0, &both.rocking, f64::INFINITY);
         let lifted = both.rocking.outcome != RockingOutcome::NeverMoved;
         let report = HousnerReport { regime, lifted, lands: lifted, ..self.report };
-        changes.push(PeakChange {
+        // feet that slide need what there is
+        changes.extend(case.members.friction.is_none().then(|| PeakChange {
             quantity: "friction needed".into(),
             unit: String::new(),
             without: self.report.friction_needed(),
             with: report.with_members(&job.body, &record, &both).friction_needed(),
-        });
-        let fell = |both: &ModelComparison| {
-            both.matched.overturned_housner_s.or(both.matched.overturned_fem_s)
+        }));
+        // springs answer for members, and where Housner's solution ends before the record
+        let overturns_s = match &both.with {
+            Some(with) => with.matched.overturned_fem_s,
+            None if both.rocking.left_ground().is_some() => both.matched.overturned_fem_s,
+            None => both.matched.overturned_housner_s,
         };
-        let overturns_s = fell(&both);
         let checked = true;
         Some(Finding::VerticalLeftOut { vertical_g, horizontal_g, overturns_s, changes, checked })
     }

@@ -53,6 +53,18 @@ pub enum Finding {
         pga_g: f64,
         uplift_g: f64,
     },
+    /// On feet with friction, without rocking.
+    Slides {
+        friction: f64,
+        /// What lifts it, over its weight.
+        uplift_g: f64,
+        largest_m: f64,
+        left_m: f64,
+    },
+    /// It rocks on feet with friction, and ends beside its place.
+    LeftAside {
+        left_m: f64,
+    },
     Stands {
         /// On springs.
         share_of_overturning: f64,
@@ -362,33 +374,6 @@ impl Finding {
                 Some(judged_s)
             }
             _ => None,
-        }
-    }
-
-    /// How much it weighs.
-    pub(crate) fn weight(&self) -> Weight {
-        match self {
-            Self::NeverLifts { .. } | Self::Stands { .. } | Self::Overturns { .. } => {
-                Weight::Answer
-            }
-            Self::ModelsDisagree { .. }
-            | Self::NoAnswer { .. }
-            | Self::AccuracyMissed { .. }
-            | Self::PeaksMissed { .. }
-            | Self::HistoryEndsEarly { .. } => Weight::Fault,
-            Self::ForetoldUpTo { later_forces, .. } if later_forces.is_empty() => Weight::Note,
-            Self::ProgramStepTooLong { asked: false, .. }
-            | Self::ProgramLoses { asked: false, .. }
-            | Self::ProgramErrsOnEarthquakes { asked: false, .. }
-            | Self::ProgramNotToBeUsed { asked: false, .. }
-            | Self::ProgramRestitution { asked: false }
-            | Self::ProgramStepForAccuracy { .. } => Weight::Note,
-            Self::NearMotions { .. }
-            | Self::ForcesAtRest { .. }
-            | Self::MembersBeside { .. }
-            | Self::DeckJudged { .. }
-            | Self::WithoutVertical { .. } => Weight::Note,
-            _ => Weight::Warning,
         }
     }
 }

@@ -17,12 +17,12 @@ pub fn history_csv(dt: f64, both: &ModelComparison) -> String {
         let _ = write!(out, ",u_{name},v_{name},th_{name}");
     }
     out.push('\n');
-    // the finite elements go on where Housner's solution ends because the pivot lets go: his
-    // columns are then empty
+    // the finite elements go on where Housner's solution ends because the pivot lets go, and a body
+    // with members where one without falls: the columns of what has ended are then empty
     let left = both.rocking.left_ground().is_some();
-    let compared =
-        motions.iter().skip(usize::from(left)).map(|(_, motion)| motion.len()).min().unwrap_or(0);
-    for i in 0..compared {
+    let compared = || motions.iter().skip(usize::from(left)).map(|(_, motion)| motion.len()).min();
+    let rows = both.with.as_ref().map(|with| with.history.motion.len()).or_else(compared);
+    for i in 0..rows.unwrap_or(0) {
         out.push_str(&digits_12(i as f64 * dt));
         for (_, motion) in &motions {
             let row = (i < motion.len())

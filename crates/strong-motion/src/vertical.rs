@@ -156,7 +156,7 @@ impl Recording {
                 if which == self.taken {
                     return Err(RecordError::NoVertical {
                         file: self.file.clone(),
-                        found: "one vertical component, which is taken as the horizontal motion,",
+                        found: "one vertical component, which is taken as the horizontal motion",
                     });
                 }
                 Self::named(self.components[which].clone())

@@ -127,7 +127,7 @@ impl Said {
 
 pub(crate) fn does(finding: &Finding) -> (Does, Option<f64>) {
     match finding {
-        Finding::NeverLifts { .. } => (Does::StaysDown, None),
+        Finding::NeverLifts { .. } | Finding::Slides { .. } => (Does::StaysDown, None),
         Finding::Stands { share_of_overturning, .. } => (Does::Rocks, Some(*share_of_overturning)),
         Finding::Overturns { .. } => (Does::Overturns, None),
         _ => (Does::Unknown, None),

@@ -8,6 +8,8 @@ impl Finding {
     pub(crate) fn remedy(&self) -> Option<String> {
         let text = match self {
             Self::Stands { .. }
+            | Self::Slides { .. }
+            | Self::LeftAside { .. }
             | Self::ForcesAtRest { .. }
             | Self::MembersBeside { .. }
             | Self::NearMotions { .. }
@@ -109,6 +111,10 @@ impl Finding {
             Self::NeverLifts { .. } => {
                 "Nothing rocks, so there is no history to compare. The springs follow from the \
                     geometry, and their accuracy was measured on synthetic motions."
+            }
+            Self::Slides { .. } => {
+                "Its springs are for rocking, and nothing rocks. Slip depends on the friction \
+                    coefficient: take the least and the most that it may be."
             }
             Self::Overturns { .. } => {
                 "Peaks, errors and forces count up to the time of overturning only; what follows \

@@ -3,7 +3,7 @@
 mod regime;
 mod taken;
 
-use super::{Finding, FindingModel, ForceName};
+use super::{Finding, FindingModel, ForceName, PeakChange};
 use dynamics::effort::CutBy;
 use files::message::{percent, quantity, significant};
 
@@ -36,9 +36,13 @@ pub fn apart_words(apart_m: f64) -> String {
 
 /// Names of forces in a sentence.
 fn listed(forces: &[ForceName]) -> String {
-    let names: Vec<&str> = forces.iter().map(|force| force.words()).collect();
-    match names.as_slice() {
-        [all @ .., one, last] => [all, &[&format!("{one} and {last}")]].concat().join(", "),
+    joined(&forces.iter().map(|force| force.words().to_string()).collect::<Vec<_>>())
+}
+
+/// Words in a sentence: one, two and three.
+fn joined(words: &[String]) -> String {
+    match words {
+        [all @ .., one, last] => [all, &[format!("{one} and {last}")]].concat().join(", "),
         few => few.concat(),
     }
 }
@@ -78,6 +82,8 @@ impl Finding {
     pub(crate) fn message(&self) -> String {
         match self {
             Self::NeverLifts { .. }
+            | Self::Slides { .. }
+            | Self::LeftAside { .. }
             | Self::Stands { .. }
             | Self::Overturns { .. }
             | Self::NoAnswer { .. }
@@ -130,6 +136,17 @@ impl Finding {
                     significant(*pga_g, 4),
                     significant(*uplift_g, 4)
                 )
+            }
+            Self::Slides { friction, uplift_g, largest_m, left_m } => format!(
+                "it slides and does not rock: {} g lifts it, and friction of {} gives way before; \
+                    it moves {} at most, and ends {} beside its place",
+                significant(*uplift_g, 3),
+                significant(*friction, 3),
+                quantity(*largest_m, "m"),
+                quantity(*left_m, "m")
+            ),
+            Self::LeftAside { left_m } => {
+                format!("it slips as well, and ends {} beside its place", quantity(*left_m, "m"))
             }
             Self::Stands {
                 share_of_overturning,
@@ -306,13 +323,17 @@ impl Finding {
                 format!("{words} is withheld: {by} with springs or mesh")
             }
             Self::ForcesHeldInPart { over_s, changes } => {
-                let later =
-                    changes.iter().map(|c| format!("{} {}", c.quantity, quantity(c.with, &c.unit)));
+                let all = |words: fn(&PeakChange) -> String| {
+                    joined(&changes.iter().map(words).collect::<Vec<_>>())
+                };
                 format!(
-                    "design forces are those of the first {} s: over the whole record they change \
-                        by 5 % or more with springs or mesh, and are here {}",
+                    "{} {} of the first {} s alone: over the whole record {} would be {}, and \
+                        change by 5 % or more with springs or mesh",
+                    all(|change| change.quantity.clone()),
+                    if changes.len() == 1 { "is" } else { "are" },
                     significant(*over_s, 3),
-                    later.collect::<Vec<_>>().join(", ")
+                    if changes.len() == 1 { "it" } else { "they" },
+                    all(|change| quantity(change.with, &change.unit))
                 )
             }
             Self::ForcesAtRest { forces } => format!(

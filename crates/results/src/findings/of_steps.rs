@@ -159,9 +159,7 @@ impl Finding {
             Self::ProgramLoses { csi: true, .. } => {
                 "check that its history ends; else another --step, longer ones too"
             }
-            Self::ProgramLoses { .. } => {
-                "check that its history ends; else another --step, or --integrator backward-euler"
-            }
+            Self::ProgramLoses { .. } => "check that its history ends; else another --step",
             Self::ProgramStepForAccuracy { .. } => {
                 "take such steps, or substeps at touches: tune export --stepping"
             }

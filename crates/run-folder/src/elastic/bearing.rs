@@ -5,9 +5,10 @@ use frames::{
     assembled::Assembled,
     beam::BeamForces,
     design_forces::ForceName,
-    fem::{ElasticHistory, FrameDemand, resolves},
+    fem::{ElasticHistory, resolves},
     structure::ElasticStructure,
 };
+use rocking::motion::peak;
 
 /// Frequency above which forces of the ground are taken to be the springs' (Hz).
 const FILTER_HZ: f64 = 20.0;
@@ -55,16 +56,18 @@ fn bases(assembled: &Assembled) -> Vec<(usize, usize)> {
         .collect()
 }
 
-/// Shear, axial force and moment at the base of the columns or legs, the largest of them,
-/// unfiltered, and the drift.
+/// Shear, axial force and moments of the column or leg in which each is largest, unfiltered, and
+/// the drift.
 fn quantities(assembled: &Assembled, answer: &ElasticAnswer) -> Vec<ForceQuantity> {
     let bases = bases(assembled);
     let largest = |history: &ElasticHistory, of: &dyn Fn(&BeamForces, usize) -> f64| -> Vec<f64> {
-        let at = |demand: &FrameDemand| {
-            let values = bases.iter().map(|&(i, end)| of(&demand.bearings[i], end));
-            values.fold(0.0, |most: f64, value| if value.abs() > most.abs() { value } else { most })
+        let column = |&(i, end): &(usize, usize)| -> Vec<f64> {
+            history.worst.iter().map(|demand| of(&demand.bearings[i], end)).collect()
         };
-        history.worst.iter().map(at).collect()
+        let columns = bases.iter().map(column);
+        columns
+            .reduce(|a, b| if peak(&b).abs() > peak(&a).abs() { b } else { a })
+            .unwrap_or_default()
     };
     let both = |of: &dyn Fn(&BeamForces, usize) -> f64| {
         [&answer.histories.fem, &answer.fixed].map(|h| largest(h, of))
@@ -92,6 +95,15 @@ fn quantities(assembled: &Assembled, answer: &ElasticAnswer) -> Vec<ForceQuantit
             name: ForceName::ColumnBaseMoment.words(),
             unit: "N m",
             series: [moment, fixed, body],
+        });
+    }
+    // a column of several elements has its top elsewhere
+    if matches!(&assembled.structure, ElasticStructure::Frame(frame) if frame.elements() == 1) {
+        let [moment, fixed] = both(&|beam, end| beam.moments[1 - end]);
+        all.push(ForceQuantity {
+            name: ForceName::ColumnTopMoment.words(),
+            unit: "N m",
+            series: [moment, fixed, Vec::new()],
         });
     }
     let drift = answer.histories.sways.first().map_or(Vec::new(), |pair| pair[1].drift.clone());

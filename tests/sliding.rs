@@ -1,0 +1,106 @@
+//! A body whose friction gives way before it lifts, as a program.
+
+use std::{path::Path, process::Command};
+
+use serde_json::Value;
+use strong_motion::Record;
+
+const GRAVITY: f64 = 9.81;
+
+/// What `tune run` prints, its parameters, and its summary.csv.
+fn run(case: &str, options: &[&str]) -> (String, Value, String) {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("case.toml"), case).unwrap();
+    let ran = Command::new(env!("CARGO_BIN_EXE_tune"))
+        .current_dir(folder.path())
+        .args(["run", "case.toml", "--quiet", "--no-figures", "--no-report"])
+        .args(options)
+        .output()
+        .unwrap();
+    assert!(ran.status.success(), "{}", String::from_utf8_lossy(&ran.stderr));
+    let read = |name: &str| std::fs::read_to_string(folder.path().join("out").join(name)).unwrap();
+    let parameters = serde_json::from_str(&read("parameters.json")).unwrap();
+    (String::from_utf8(ran.stdout).unwrap(), parameters, read("summary.csv"))
+}
+
+fn finding<'a>(parameters: &'a Value, name: &str) -> Option<&'a Value> {
+    parameters["findings"].as_array().unwrap().iter().find(|found| found["finding"] == name)
+}
+
+/// Largest slip and where it ends (m): Newmark's block on a plane, r'' = -ug'' - mu g sgn(r').
+fn block_on_a_plane(record: &Record, friction: f64) -> [f64; 2] {
+    let (parts, limit) = (1000, friction * GRAVITY);
+    let h = record.dt / f64::from(parts);
+    let (mut slip, mut rate, mut largest) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for pair in record.accel.windows(2) {
+        for part in 0..parts {
+            let share = (f64::from(part) + 0.5) / f64::from(parts);
+            let push = -(pair[0] + share * (pair[1] - pair[0]));
+            if rate == 0.0 && push.abs() <= limit {
+                continue;
+            }
+            let way = if rate == 0.0 { push.signum() } else { rate.signum() };
+            let next = rate + h * (push - way * limit);
+            let next = if next * way < 0.0 { 0.0 } else { next };
+            slip += 0.5 * h * (rate + next);
+            rate = next;
+            largest = largest.max(slip.abs());
+        }
+    }
+    [largest, slip.abs()]
+}
+
+/// A cabinet on a floor of friction 0.15, of which b/h is 0.2: it slides, as a block on a plane
+/// does, the ground bears no more than mu m g, and nothing is foretold less for what Housner's body
+/// would do.
+#[test]
+fn a_block_that_slides_is_newmarks() {
+    let case = "[structure]\nkind = 'block'\ntotal_height_m = 1.9\nwidth_m = 0.38\n\
+        mass_kg = 350.0\n[friction]\ncoefficient = 0.15\n[record]\nscale = 1.3\n";
+    let (said, parameters, summary) = run(case, &[]);
+    assert!(said.contains("slides and does not rock"), "{said}");
+    assert!(!said.contains("predictable to") && !said.contains("Ill-conditioned"), "{said}");
+    let mut record = Record::el_centro();
+    record.accel.iter_mut().for_each(|a| *a *= 1.3);
+    let slides = finding(&parameters, "slides").unwrap();
+    for (key, due) in ["largest_m", "left_m"].into_iter().zip(block_on_a_plane(&record, 0.15)) {
+        let found = slides[key].as_f64().unwrap();
+        assert!((found / due - 1.0).abs() < 5e-3, "{key}: {found}, {due}");
+    }
+    let forces = &parameters["design_forces"];
+    let most = 0.15 * 350.0 * GRAVITY;
+    for (force, most) in [("column_shear_n", most), ("column_base_moment_nm", 0.95 * most)] {
+        let value = forces[force]["value"].as_f64().expect(&forces.to_string()).abs();
+        assert!((value / most - 1.0).abs() < 3e-3, "{force}: {value}, {most}");
+        assert_eq!(forces[force]["predictable"], true, "{force}");
+    }
+    // springs without friction stand beside
+    let top = summary.lines().find(|line| line.starts_with("top displacement")).unwrap();
+    let cells: Vec<f64> = top.split(',').skip(2).take(3).map(|x| x.parse().unwrap()).collect();
+    assert!((cells[0] / cells[1] - 1.0).abs() < 0.01 && cells[2] < 0.1 * cells[1], "{top}");
+}
+
+/// What a vertical component that is left out would change is told of the body as it is: of one
+/// that slides its slip.
+#[test]
+fn a_vertical_motion_left_out_is_told_of_the_body_with_friction() {
+    let file =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/records/20161113_110259_WTMC_20.V2A");
+    let case = format!(
+        "[structure]\nkind = 'block'\ntotal_height_m = 0.82\nwidth_m = 0.369\nmass_kg = 120.0\n\
+         [friction]\ncoefficient = 0.42\n[record]\nfile = {file:?}\nduration_s = 70.0\n\
+         scale = 0.8\n"
+    );
+    let (_, without, _) = run(&case, &[]);
+    let told = finding(&without, "vertical_left_out").unwrap();
+    let changes = told["changes"].as_array().unwrap();
+    let top = changes.iter().find(|change| change["quantity"] == "top displacement").unwrap();
+    let (_, with, _) = run(&case, &["--vertical", "auto"]);
+    let taken = finding(&with, "slides").unwrap();
+    for (found, of) in [("without", &without), ("with", &with)] {
+        let due = of["peaks"]["with_members"]["top_displacement_m"].as_f64().unwrap();
+        assert!((top[found].as_f64().unwrap() / due - 1.0).abs() < 1e-9, "{top} {due}");
+    }
+    let top = with["peaks"]["with_members"]["top_displacement_m"].as_f64().unwrap();
+    assert!((taken["largest_m"].as_f64().unwrap() / top - 1.0).abs() < 1e-5, "{taken}");
+}
