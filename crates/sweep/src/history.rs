@@ -4,7 +4,6 @@ use std::{borrow::Cow, f64::consts::FRAC_PI_2, ops::Range, sync::Arc};
 
 use super::{
     SweepError,
-    motion::SweepMotion,
     plan::{Cell, Plan, Subject},
     row::{CellAnswer, CellOutcome, HistoryRow},
     springs::SpringsTable,
@@ -69,12 +68,7 @@ impl UnscaledGround {
     fn new(plan: &Plan, cell: Cell) -> Result<Self, SweepError> {
         let Subject { p, alpha, .. } = plan.subjects[cell.subject];
         let motion = &plan.motions[cell.motion];
-        let record = motion.record(&plan.making, (p, alpha))?;
-        let velocity = match motion {
-            SweepMotion::Pulse { .. } => record.velocity_from_rest(),
-            _ => record.velocity(),
-        };
-        let pgv = velocity.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+        let (record, pgv) = motion.ground(&plan.making, (p, alpha))?;
         let pga = record.pga();
         if pga == 0.0 {
             return Err(SweepError::Still { record: record.name });

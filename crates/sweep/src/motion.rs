@@ -113,35 +113,23 @@ impl SweepMotion {
         }
     }
 
-    /// The record, unscaled, for a structure with p (1/s) and alpha (rad) where each has its own.
+    /// The record used, unscaled, for a structure with p (1/s) and alpha (rad) where each has its
+    /// own, and its peak ground velocity (m/s): of a pulse from rest, else that of the whole
+    /// record's velocity up to the last sample used.
     ///
     /// # Errors
     /// A file that cannot be read.
-    pub(crate) fn record(
-        &self,
-        making: &MotionSource,
-        of: (f64, f64),
-    ) -> Result<Record, RecordError> {
-        self.told(making, of, &mut |_| {})
-    }
-
-    /// The same; `notice` is told what the reader of a file says of it.
-    ///
-    /// # Errors
-    /// A file that cannot be read.
-    pub(crate) fn told(
+    pub(crate) fn ground(
         &self,
         making: &MotionSource,
         (p, alpha): (f64, f64),
-        notice: &mut dyn FnMut(&Notice),
-    ) -> Result<Record, RecordError> {
-        let record = match self {
+    ) -> Result<(Record, f64), RecordError> {
+        let whole = match self {
             Self::ElCentro => Record::el_centro(),
-            Self::File(path) => whole(path, making, notice)?,
+            Self::File(path) => whole(path, making, &mut |_| {})?,
             Self::Synthetic(i) => synthetic::record(making.seed, *i, p, alpha),
             Self::Earthquake(i) => synthetic::earthquake(making.seed, *i, making.p.0),
-            // as long as the given one, which duration_s has cut already
-            Self::Like(i, given) => return Ok(given.target.motion(making.seed, *i, making.p.0)),
+            Self::Like(i, given) => given.target.motion(making.seed, *i, making.p.0),
             Self::Pulse { shape, frequency } => {
                 let (least, greatest) = match frequency {
                     Frequency::OverP(_) => (p, p),
@@ -149,17 +137,20 @@ impl SweepMotion {
                 };
                 let (dt, mut accel) = shape.sampled(frequency.omega(p), GRAVITY, greatest);
                 accel.resize(accel.len() + (SILENCE / (least * dt)).ceil() as usize, 0.0);
-                // its length is the pulse's
-                return Ok(Record {
-                    name: self.name(),
-                    dt,
-                    accel,
-                    vertical: None,
-                    source: Source::Synthetic,
-                });
+                Record { name: self.name(), dt, accel, vertical: None, source: Source::Synthetic }
             }
         };
-        Ok(making.used(record))
+        let velocity = match self {
+            Self::Pulse { .. } => whole.velocity_from_rest(),
+            _ => whole.velocity(),
+        };
+        let record = match self {
+            // as long as its pulse, or as the given motion, which duration_s has cut already
+            Self::Pulse { .. } | Self::Like(..) => whole,
+            _ => making.used(whole),
+        };
+        let used = &velocity[..record.len()];
+        Ok((record, used.iter().fold(0.0, |most: f64, v| most.max(v.abs()))))
     }
 }
 

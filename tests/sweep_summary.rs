@@ -1,0 +1,73 @@
+//! `tune sweep`: what its summary and tables say of small sweeps whose answers are known.
+
+use std::{fs, process::Command};
+
+use assert_cmd::cargo::cargo_bin;
+use tempfile::TempDir;
+
+/// A folder in which a sweep ran, and its summary.
+struct SweepRun {
+    dir: TempDir,
+    #[expect(dead_code)]
+    summary: String,
+}
+
+impl SweepRun {
+    fn new(spec: &str, record: &str) -> Self {
+        let dir = TempDir::new().unwrap();
+        fs::write(dir.path().join("sweep.toml"), spec).unwrap();
+        fs::write(dir.path().join("record.csv"), record).unwrap();
+        let ran = Command::new(cargo_bin("tune"))
+            .current_dir(dir.path())
+            .args(["sweep", "sweep.toml", "--out", "out", "--quiet", "--no-figures"])
+            .output()
+            .unwrap();
+        assert!(ran.status.success(), "{ran:?}");
+        let summary = fs::read_to_string(dir.path().join("out/summary.md")).unwrap();
+        Self { dir, summary }
+    }
+
+    /// The numbers of a column of a table.
+    fn column(&self, table: &str, name: &str) -> Vec<f64> {
+        let text = fs::read_to_string(self.dir.path().join("out").join(table)).unwrap();
+        let mut lines = text.lines();
+        let place = lines.next().unwrap().split(',').position(|head| head == name).unwrap();
+        // commas in names stand between quotation marks
+        let cells = |line: &str| {
+            let plain: Vec<&str> = line.split('"').step_by(2).collect();
+            plain.concat().split(',').nth(place).unwrap().parse().unwrap_or(f64::NAN)
+        };
+        lines.map(cells).collect()
+    }
+}
+
+const BLOCK: &str = "[[structure]]
+kind = \"block\"
+total_height_m = 2.0
+width_m = 0.5
+mass_kg = 400.0
+";
+
+/// Acceleration (m/s2) at steps of 0.01 s up to 2 s, as a table.
+fn record(accel: impl Fn(f64) -> f64) -> String {
+    (0..=200).fold(String::new(), |text, i| {
+        let t = 0.01 * f64::from(i);
+        text + &format!("{t:.2},{:.9}\n", accel(t))
+    })
+}
+
+/// a = 0.2 + 3 sin(pi t), t up to 2 s: less its mean it gives v = 3/pi (1 - cos(pi t)), which in
+/// the first half second reaches 3/pi. The first half second alone has another mean.
+#[test]
+fn pgv_of_the_first_part_of_a_record_is_that_of_the_whole_record_up_to_there() {
+    use std::f64::consts::PI;
+    for (duration, pgv) in [("", 6.0 / PI), ("duration_s = 0.5", 3.0 / PI)] {
+        let spec = format!(
+            "[sweep]\nkind = \"fragility\"\n{BLOCK}[records]\nfiles = [\"record.csv\"]\n\
+             units = \"m/s2\"\n{duration}\n[levels]\nscale = [1.0]\n"
+        );
+        let ran = SweepRun::new(&spec, &record(|t| 0.2 + 3.0 * (PI * t).sin()));
+        let found = ran.column("histories.csv", "pgv_m_per_s")[0];
+        assert!((found / pgv - 1.0).abs() < 2e-4, "{duration}: {found}, {pgv}");
+    }
+}
