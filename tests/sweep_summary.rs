@@ -8,7 +8,6 @@ use tempfile::TempDir;
 /// A folder in which a sweep ran, and its summary.
 struct SweepRun {
     dir: TempDir,
-    #[expect(dead_code)]
     summary: String,
 }
 
@@ -25,6 +24,14 @@ impl SweepRun {
         assert!(ran.status.success(), "{ran:?}");
         let summary = fs::read_to_string(dir.path().join("out/summary.md")).unwrap();
         Self { dir, summary }
+    }
+
+    fn says(&self, words: &str) {
+        assert!(self.summary.contains(words), "{words}\n{}", self.summary);
+    }
+
+    fn does_not_say(&self, words: &str) {
+        assert!(!self.summary.contains(words), "{words}\n{}", self.summary);
     }
 
     /// The numbers of a column of a table.
@@ -70,4 +77,37 @@ fn pgv_of_the_first_part_of_a_record_is_that_of_the_whole_record_up_to_there() {
         let found = ran.column("histories.csv", "pgv_m_per_s")[0];
         assert!((found / pgv - 1.0).abs() < 2e-4, "{duration}: {found}, {pgv}");
     }
+}
+
+/// A fragility sweep of one block.
+fn fragility(records: &str, levels: &str) -> SweepRun {
+    let spec =
+        format!("[sweep]\nkind = \"fragility\"\n{BLOCK}[records]\n{records}\n[levels]\n{levels}\n");
+    SweepRun::new(&spec, &record(|t| 4.0 * (4.0 * t).sin()))
+}
+
+const LEVELS: &str = "pga_g = { from = 0.2, to = 2.0, count = 60 }";
+
+#[test]
+fn one_record_gives_no_bounds_and_is_not_called_half_of_the_motions() {
+    let one = fragility("el_centro = true", LEVELS);
+    one.says("one record gives no bounds: the fit to its levels is 0.5 at PGA = ");
+    one.says("One record says nothing of other motions: take more.");
+    one.does_not_say("half of the motions");
+    assert!(one.column("fragility.csv", "median").iter().any(|x| x.is_finite()));
+    assert!(one.column("fragility.csv", "median_low").iter().all(|x| x.is_nan()));
+    let separated = fragility("el_centro = true", "pga_g = [0.1, 3.0]");
+    separated.says("the one motion leaves it standing up to PGA = 0.100 g and overturns it from");
+    separated.does_not_say("alone decides");
+    // each motion that is made is a record
+    fragility("synthetic = 12", LEVELS).says("% bounds");
+}
+
+/// The same record twice: both say the same, and the fit is there.
+#[test]
+fn a_fit_of_records_that_do_not_differ_is_told_without_bounds() {
+    let twice = fragility("files = [\"record.csv\", \"record.csv\"]\nunits = \"m/s2\"", LEVELS);
+    println!("{}", twice.summary);
+    twice.says("the 2 records do not differ, so there are no bounds");
+    twice.does_not_say("higher levels overturn it less often");
 }

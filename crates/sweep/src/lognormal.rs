@@ -17,8 +17,8 @@
 //! V = I^-1 ( J/(J - 1) sum_j u_j u_j^T ) I^-1
 //! ```
 //!
-//! for J records: K.-Y. Liang and S. L. Zeger (1986), "Longitudinal data analysis using generalized
-//! linear models", Biometrika 73(1).
+//! for J >= 2 records: K.-Y. Liang and S. L. Zeger (1986), "Longitudinal data analysis using
+//! generalized linear models", Biometrika 73(1).
 
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
@@ -31,6 +31,9 @@ pub(crate) struct Group {
     /// How many of them exceed.
     pub k: u64,
 }
+
+/// A deviation of the median's logarithm that is rounding.
+const EXACT: f64 = 1e-9;
 
 /// A symmetric 2 x 2 matrix: aa, ab, bb.
 pub(crate) type SymmetricMatrix = [f64; 3];
@@ -177,22 +180,24 @@ impl Probit {
         1.0 / self.b
     }
 
-    /// Covariance of (a, b) from the scores of records, summed as u u^T, of so many records; as if
-    /// all outcomes were independent where there is one record or none.
+    /// Covariance of (a, b) from the scores of records, summed as u u^T, of so many records. None
+    /// of one record, which says nothing of others, and of records that do not differ in what they
+    /// say of the median.
     pub(crate) fn covariance(
         &self,
         scores: SymmetricMatrix,
         records: usize,
     ) -> Option<SymmetricMatrix> {
-        let [[aa, ab], [_, bb]] = inverse(self.information)?;
         if records < 2 {
-            return Some([aa, ab, bb]);
+            return None;
         }
+        let [[aa, ab], [_, bb]] = inverse(self.information)?;
         let factor = records as f64 / (records - 1) as f64;
         let [saa, sab, sbb] = scores.map(|s| factor * s);
         let (xaa, xab) = (aa * saa + ab * sab, aa * sab + ab * sbb);
         let (xba, xbb) = (ab * saa + bb * sab, ab * sab + bb * sbb);
-        Some([xaa * aa + xab * ab, xaa * ab + xab * bb, xba * ab + xbb * bb])
+        let covariance = [xaa * aa + xab * ab, xaa * ab + xab * bb, xba * ab + xbb * bb];
+        (self.deviations(covariance).0 > EXACT).then_some(covariance)
     }
 
     /// Standard deviations of ln(theta) and of beta, to first order.
@@ -257,6 +262,12 @@ mod tests {
         assert!((quantile(0.95) - 1.644_853_626_951_473).abs() < 1e-13);
     }
 
+    /// Covariance of (a, b) if all outcomes are independent.
+    fn independent(fit: &Probit) -> SymmetricMatrix {
+        let [[aa, ab], [_, bb]] = inverse(fit.information).unwrap();
+        [aa, ab, bb]
+    }
+
     /// Two intensities and two parameters: the fit goes through both shares, and its covariance is
     /// that of two independent binomial shares, var(z) = P (1 - P)/(n phi(z)^2).
     #[test]
@@ -269,7 +280,7 @@ mod tests {
         assert!((phi(fit.a + 1.1 * fit.b) - 0.8).abs() < 1e-10);
         let variance = |z: f64, n: f64| phi(z) * phi(-z) / (n * density(z).powi(2));
         let [v0, v1] = [variance(z[0], 200.0), variance(z[1], 100.0)];
-        let covariance = fit.covariance([0.0; 3], 1).unwrap();
+        let covariance = independent(&fit);
         assert!((covariance[2] / ((v0 + v1) / 0.64) - 1.0).abs() < 1e-8, "{covariance:?}");
         assert!((fit.deviation_at(covariance, 0.3_f64.exp()).powi(2) / v0 - 1.0).abs() < 1e-8);
     }
@@ -297,10 +308,13 @@ mod tests {
             scores = [scores[0] + u[0] * u[0], scores[1] + u[0] * u[1], scores[2] + u[1] * u[1]];
         }
         let robust = fit.deviations(fit.covariance(scores, 1000).unwrap()).0;
-        let naive = fit.deviations(fit.covariance(scores, 1).unwrap()).0;
+        let naive = fit.deviations(independent(&fit)).0;
         println!("median {} beta {} deviations {robust} {naive}", fit.median(), fit.beta());
         assert!((robust / (0.4 / 1000_f64.sqrt()) - 1.0).abs() < 0.1, "{robust}");
         assert!(naive < 0.4 * robust, "{naive}");
+        // one record has no bounds, nor have records that do not differ: their scores are zero
+        assert_eq!(fit.covariance(scores, 1), None);
+        assert_eq!(fit.covariance([0.0; 3], 2), None);
     }
 
     #[test]

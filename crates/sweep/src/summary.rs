@@ -88,17 +88,31 @@ fn fit_words(fragility: &Fragility, member: &FragilityGroup, pga: &FragilityRow)
     let percent = 100.0 * fragility.confidence;
     let (measure, unit) = MEASURES[pga.measure];
     let unit = if unit == "-" { String::new() } else { format!(" {unit}") };
+    let extrapolated = if pga.is_extrapolated() { ", extrapolated beyond the levels" } else { "" };
+    let one = member.records == 1;
     match (&pga.fit, pga.bounds(fragility.half_width())) {
         (LognormalFit::Fitted(fit), Some(bounds)) => format!(
-            "half of the motions overturn it at {measure} = {:.3}{unit}{} ({percent:.0} % \
-             bounds {:.3} to {:.3}), beta {:.2} ({:.2} to {:.2})",
+            "half of the motions overturn it at {measure} = {:.3}{unit}{extrapolated} \
+             ({percent:.0} % bounds {:.3} to {:.3}), beta {:.2} ({:.2} to {:.2})",
             fit.median(),
-            if pga.is_extrapolated() { ", extrapolated beyond the levels" } else { "" },
             bounds.median.0,
             bounds.median.1,
             fit.beta(),
             bounds.beta.0,
             bounds.beta.1
+        ),
+        (LognormalFit::Fitted(fit), None) if one => format!(
+            "one record gives no bounds: the fit to its levels is 0.5 at {measure} = \
+             {:.3}{unit}{extrapolated}, beta {:.2}",
+            fit.median(),
+            fit.beta()
+        ),
+        (LognormalFit::Fitted(fit), None) => format!(
+            "half of the motions overturn it at {measure} = {:.3}{unit}{extrapolated}, beta \
+             {:.2}; the {} records do not differ, so there are no bounds",
+            fit.median(),
+            fit.beta(),
+            member.records
         ),
         (LognormalFit::NoneExceeded, _) if member.excluded > 0 => {
             let model = match MODELS[member.model] {
@@ -109,6 +123,10 @@ fn fit_words(fragility: &Fragility, member: &FragilityGroup, pga: &FragilityRow)
         }
         (LognormalFit::NoneExceeded, _) => "no motion overturns it; raise the levels".into(),
         (LognormalFit::AllExceeded, _) => "every motion overturns it; lower the levels".into(),
+        (LognormalFit::Separated { below, above }, _) if one => format!(
+            "the one motion leaves it standing up to {measure} = {below:.3}{unit} and overturns \
+             it from {above:.3}{unit}; another motion has other limits"
+        ),
         (LognormalFit::Separated { below, above }, _) => {
             format!(
                 "{measure} alone decides: up to {below:.3}{unit} it stands, from \
@@ -121,14 +139,18 @@ fn fit_words(fragility: &Fragility, member: &FragilityGroup, pga: &FragilityRow)
                  about it"
             )
         }
-        _ => format!("no fit on {measure}: higher levels overturn it less often"),
+        (LognormalFit::Falling, _) => {
+            format!("no fit on {measure}: higher levels overturn it less often")
+        }
     }
 }
 
 /// What the bounds rest on.
 fn on_bounds(fragility: &Fragility) -> String {
     let records = fragility.members.first().map_or(0, |member| member.records);
-    if records < 10 {
+    if records == 1 {
+        "One record says nothing of other motions: take more.".into()
+    } else if records < 10 {
         format!("Bounds rest on {records} records only: take more.")
     } else {
         "Bounds take the histories of one record for one observation, however many levels it was \

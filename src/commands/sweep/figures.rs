@@ -75,7 +75,7 @@ pub fn fragility(plan: &Plan, fragility: &Fragility, path: &Path) -> Result<(), 
         };
         let names: Vec<String> = names.iter().enumerate().map(named).collect();
         let title = format!("{what}, {} motions, {model}", plan.motions.len());
-        let label = format!("probability, {:.0} % bounds", 100.0 * plan.confidence);
+        let label = probability_label(fragility);
         let data = probability::FragilityFigure {
             title: &title,
             entries: &names,
@@ -105,6 +105,14 @@ pub fn fragility(plan: &Plan, fragility: &Fragility, path: &Path) -> Result<(), 
     Ok(())
 }
 
+/// What a fit shows; there are no bounds of one record, nor of records that do not differ.
+fn probability_label(fragility: &Fragility) -> String {
+    match fragility.rows.iter().any(|row| row.covariance.is_some()) {
+        true => format!("probability, {:.0} % bounds", 100.0 * fragility.confidence),
+        false => "probability, without bounds".into(),
+    }
+}
+
 /// Beyond what was computed a fit is not drawn by more than this factor.
 const BEYOND: f64 = 1.5;
 
@@ -116,7 +124,7 @@ fn curve(
     observed: Vec<(f64, f64)>,
 ) -> Option<probability::FragilityCurve> {
     use sweep::lognormal::phi;
-    let (fit, covariance) = (row.probit()?, row.covariance?);
+    let fit = row.probit()?;
     let x: Vec<f64> = (0..POINTS)
         .map(|i| {
             fit.median() * (fit.beta() * 2.9 * (2.0 * i as f64 / (POINTS - 1) as f64 - 1.0)).exp()
@@ -126,12 +134,9 @@ fn curve(
     if x.len() < 2 {
         return None;
     }
+    let deviation = |x: f64| row.covariance.map_or(0.0, |all| fit.deviation_at(all, x));
     let at = |side: f64| -> Vec<f64> {
-        x.iter()
-            .map(|x| {
-                phi(fit.a + fit.b * x.ln() + side * half_width * fit.deviation_at(covariance, *x))
-            })
-            .collect()
+        x.iter().map(|x| phi(fit.a + fit.b * x.ln() + side * half_width * deviation(*x))).collect()
     };
     Some(probability::FragilityCurve {
         entry,

@@ -3,9 +3,6 @@
 use super::FragilityRow;
 use crate::lognormal::{LognormalFit, Probit};
 
-/// A deviation of the median's logarithm that is rounding.
-const EXACT: f64 = 1e-9;
-
 /// Confidence bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ConfidenceBounds {
@@ -40,10 +37,6 @@ impl FragilityRow {
     pub(crate) fn bounds(&self, half_width: f64) -> Option<ConfidenceBounds> {
         let (fit, covariance) = (self.probit()?, self.covariance?);
         let (ln_median, beta) = fit.deviations(covariance);
-        // of steps at known intensities no motion says more than another
-        if ln_median < EXACT {
-            return None;
-        }
         let around = |x: f64, relative: f64| {
             let factor = (half_width * relative).exp();
             (x / factor, x * factor)
