@@ -111,3 +111,24 @@ fn a_fit_of_records_that_do_not_differ_is_told_without_bounds() {
     twice.says("the 2 records do not differ, so there are no bounds");
     twice.does_not_say("higher levels overturn it less often");
 }
+
+/// Three blocks of one shape: equation 2's restitution is 1 - 3/2 sin^2(alpha), alpha = atan(1/4),
+/// so 1 - 3/34.
+#[test]
+fn structures_of_one_shape_are_told_apart_by_their_restitution() {
+    let spec = |more: &str| {
+        format!(
+            "[sweep]\nkind = \"fragility\"\n{more}\n{BLOCK}{BLOCK}restitution = 0.72\n{BLOCK}\
+             [records]\nel_centro = true\n[levels]\npga_g = [0.5]\n"
+        )
+    };
+    let own = SweepRun::new(&spec(""), "");
+    let name = "- block R 1.031 m, alpha 0.245";
+    own.says(&format!("{name}, e = 0.9118 (equation 2), by"));
+    own.says(&format!("{name}, e = 0.72, by"));
+    own.says(&format!("{name}, e = 0.9118 (equation 2), number 2, by"));
+    let same = SweepRun::new(&spec("restitution = 0.9"), "");
+    same.says(&format!("{name}, e = 0.9, by"));
+    same.says(&format!("{name}, number 2, e = 0.9, by"));
+    same.does_not_say("equation 2");
+}

@@ -22,12 +22,15 @@ pub fn head(plan: &Plan, gathered: u64) -> String {
     let counted =
         |n: usize, one: &str, several: &str| format!("{n} {}", if n == 1 { one } else { several });
     let part = if gathered < plan.cells() { format!("{gathered} of ") } else { String::new() };
+    let restitutions =
+        plan.restitutions.as_ref().map_or("each structure's own restitution".into(), |all| {
+            counted(all.len(), "restitution", "restitutions")
+        });
     format!(
-        "{part}{} histories: {}, {}, {}, {}.",
+        "{part}{} histories: {}, {}, {restitutions}, {}.",
         plan.cells(),
         counted(plan.subjects.len(), "structure", "structures"),
         counted(plan.motions.len(), "ground motion", "ground motions"),
-        counted(plan.restitution_count(), "restitution", "restitutions"),
         counted(plan.levels.len(), "level", "levels"),
     )
 }

@@ -1,5 +1,7 @@
 //! The structures of a sweep: those given one by one, and those of a grid.
 
+use std::collections::HashMap;
+
 use toml::Spanned;
 
 use crate::{
@@ -75,7 +77,39 @@ pub(super) fn subjects(source: &SweepSource) -> Result<Vec<Subject>, SweepError>
             "no structure; give [[structure]] as in a case file, or [grid]",
         ));
     }
+    if source.spec.sweep.restitution.is_none() {
+        name_restitutions(&mut subjects);
+    }
+    number_namesakes(&mut subjects);
     Ok(subjects)
+}
+
+/// The structures' restitutions in their names, where some are equation 2's and others are not, or
+/// where several were given.
+fn name_restitutions(subjects: &mut [Subject]) {
+    let of_equation_2 = |subject: &Subject| subject.restitution == subject.body.restitution();
+    let first = subjects[0].restitution;
+    if subjects.iter().all(of_equation_2) || subjects.iter().all(|s| s.restitution == first) {
+        return;
+    }
+    for subject in subjects {
+        subject.name += &format!(", e = {}", digits(subject.restitution));
+        if of_equation_2(subject) {
+            subject.name += " (equation 2)";
+        }
+    }
+}
+
+/// Structures of one name get a number.
+fn number_namesakes(subjects: &mut [Subject]) {
+    let mut seen: HashMap<String, usize> = HashMap::new();
+    for subject in subjects {
+        let count = seen.entry(subject.name.clone()).or_default();
+        *count += 1;
+        if *count > 1 {
+            subject.name += &format!(", number {count}");
+        }
+    }
 }
 
 /// The message of an error without the file's name, which stands before it anyway.
