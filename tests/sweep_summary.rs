@@ -132,3 +132,29 @@ fn structures_of_one_shape_are_told_apart_by_their_restitution() {
     same.says(&format!("{name}, number 2, e = 0.9, by"));
     same.does_not_say("equation 2");
 }
+
+/// Two blocks of alpha atan(1/4) and atan(1/2), of one size: the slender one overturns from the
+/// least PGA, and which has the least PGA/(g tan alpha) is in the table.
+#[test]
+fn the_least_pulse_is_told_in_both_measures_with_the_restitution() {
+    let wide = BLOCK.replace("width_m = 0.5", "width_m = 1.0");
+    let spec = format!(
+        "[sweep]\nkind = \"overturning\"\nrestitution = [0.8, 0.95]\n{BLOCK}{wide}[[pulse]]\n\
+         shape = \"sine\"\nomega_over_p = [0.8, 3.0]\n[levels]\n\
+         pga_over_uplift = {{ from = 0.9, to = 4.0, count = 80 }}\n"
+    );
+    let ran = SweepRun::new(&spec, "");
+    let [from, alpha, e] = ["from_over_uplift", "alpha", "restitution"]
+        .map(|name| ran.column("overturning.csv", name));
+    let least = |of: &dyn Fn(usize) -> f64| {
+        (0..from.len()).min_by(|a, b| of(*a).total_cmp(&of(*b))).unwrap()
+    };
+    let in_g = |row: usize| from[row] * alpha[row].tan();
+    let (a, b) = (least(&|row| from[row]), least(&in_g));
+    assert!(a != b && (alpha[b].tan() - 0.25).abs() < 1e-9, "{}", alpha[b]);
+    for (what, row) in [("PGA/(g tan alpha)", a), ("PGA", b)] {
+        let peaks = format!("PGA = {:.4} g, {:.4} g tan(alpha), sine", in_g(row), from[row]);
+        ran.says(&format!("Least {what} that overturns: {peaks}"));
+        ran.says(&format!(", e = {}.", e[row]));
+    }
+}

@@ -299,8 +299,6 @@ pub fn compare(comparison: &Comparison) -> Vec<String> {
 /// What pulses it takes.
 pub fn overturning(plan: &Plan, table: &SweepTable) -> Vec<String> {
     let (from, to) = (table.reals("from_over_uplift"), table.reals("to_over_uplift"));
-    let (structure, pulse, q) =
-        (table.texts("structure"), table.texts("pulse"), table.reals("omega_over_p"));
     let mut said = vec![format!(
         "{} pulse frequencies times structures, scanned from {} to {} times g tan(alpha): {} \
          intervals overturn.",
@@ -309,24 +307,55 @@ pub fn overturning(plan: &Plan, table: &SweepTable) -> Vec<String> {
         plan.levels[plan.levels.len() - 1],
         table.rows()
     )];
-    let finite = (0..table.rows()).filter(|row| to[*row].is_some()).count();
-    if finite > 0 {
-        said.push(format!(
+    let count =
+        |ends: &[Option<f64>], has: bool| ends.iter().filter(|e| e.is_some() == has).count();
+    match count(to, true) {
+        0 => {}
+        finite => said.push(format!(
             "{finite} of them have an upper end, above which a stronger pulse leaves the body \
              standing or overturns it otherwise."
-        ));
+        )),
     }
-    let least = (0..table.rows())
-        .filter_map(|row| from[row].map(|from| (row, from)))
-        .min_by(|a, b| a.1.total_cmp(&b.1));
-    if let Some((row, from)) = least {
-        said.push(format!(
-            "The weakest pulse that overturns: {} on {} at omega/p = {:.3}, {from:.4} g \
-             tan(alpha).",
-            pulse[row],
-            structure[row],
-            q[row].unwrap_or(0.0)
-        ));
+    match count(from, false) {
+        0 => {}
+        below => said.push(format!(
+            "{below} of them begin below the levels: lower the levels to find where."
+        )),
     }
+    said.extend(least_pulses(plan, table));
     said
+}
+
+/// The pulses that overturn with the least peak, over g tan(alpha) and in g.
+fn least_pulses(plan: &Plan, table: &SweepTable) -> Vec<String> {
+    let (structure, pulse) = (table.texts("structure"), table.texts("pulse"));
+    let [q, e, alpha, from] =
+        ["omega_over_p", "restitution", "alpha", "from_over_uplift"].map(|name| table.reals(name));
+    // PGA over g tan(alpha), in g
+    let peaks = |row: usize| Some([from[row]?, from[row]? * alpha[row]?.tan()]);
+    let least = |measure: usize| {
+        (0..table.rows())
+            .filter_map(|row| Some((row, peaks(row)?)))
+            .min_by(|a, b| a.1[measure].total_cmp(&b.1[measure]))
+    };
+    let words = |(row, [over_uplift, g]): (usize, [f64; 2]), what: &str| {
+        let e = match &plan.restitutions {
+            Some(_) => format!(", e = {}", e[row].unwrap_or(f64::NAN)),
+            None => String::new(),
+        };
+        format!(
+            "Least {what} that overturns: PGA = {g:.4} g, {over_uplift:.4} g tan(alpha), {} at \
+             omega/p = {:.3} on {}{e}.",
+            pulse[row],
+            q[row].unwrap_or(f64::NAN),
+            structure[row]
+        )
+    };
+    match (least(0), least(1)) {
+        (Some(a), Some(b)) if a.0 == b.0 => vec![words(a, "PGA and PGA/(g tan alpha)")],
+        (a, b) => [(a, "PGA/(g tan alpha)"), (b, "PGA")]
+            .into_iter()
+            .filter_map(|(least, what)| Some(words(least?, what)))
+            .collect(),
+    }
 }
