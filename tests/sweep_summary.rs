@@ -158,3 +158,16 @@ fn the_least_pulse_is_told_in_both_measures_with_the_restitution() {
         ran.says(&format!(", e = {}.", e[row]));
     }
 }
+
+#[test]
+fn springs_that_do_not_reach_their_accuracy_are_named_once_in_the_summary() {
+    let spec = format!(
+        "[sweep]\nkind = \"fragility\"\nmodel = \"both\"\nrestitution = [0.9]\n{BLOCK}[records]\n\
+         el_centro = true\n[levels]\npga_g = [0.4]\n[springs]\naccuracy = 0.001\n\
+         max_omega_hz = 20.0\n"
+    );
+    let ran = SweepRun::new(&spec, "");
+    let words = "CHECK springs for restitution 0.9, tuned on block R 1.031 m, alpha 0.245: they do \
+                 not reach the accuracy of 0.001;";
+    assert_eq!(ran.summary.matches(words).count(), 1, "{}", ran.summary);
+}

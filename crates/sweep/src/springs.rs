@@ -11,7 +11,10 @@ use serde::{Deserialize, Serialize};
 use super::{SweepError, manifest, plan::Plan};
 use cases::{Case, Tuning};
 use dynamics::spring::{Chain, Design, Springs};
-use files::{input, message::one_line};
+use files::{
+    input,
+    message::{one_line, significant},
+};
 use springs::job::Job;
 use strong_motion::{Record, excitation::Excitation, fnv1a};
 
@@ -39,6 +42,19 @@ struct TunedSprings {
     horizontal: DimensionlessChain,
 }
 
+impl TunedSprings {
+    /// That they do not reach the accuracy.
+    fn doubt(&self) -> String {
+        format!(
+            "springs for restitution {}, tuned on {}: they do not reach the accuracy of {}; ask \
+             for less (accuracy under [springs]), or allow stiffer ones (max_omega_hz)",
+            significant(self.restitution, 4),
+            self.tuned_on,
+            self.accuracy
+        )
+    }
+}
+
 /// `springs.json`: of a sweep, in the order in which its geometries come.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Filed {
@@ -60,7 +76,7 @@ impl Filed {
 pub struct SpringsTable {
     chains: Vec<Springs<Chain>>,
     restitutions: usize,
-    /// Geometries on which the accuracy was not reached.
+    /// The springs that do not reach the accuracy: which, and what to do, a line each.
     pub missed: Vec<String>,
 }
 
@@ -90,38 +106,35 @@ impl SpringsTable {
         hash: &str,
         progress: &dyn Fn(usize, usize),
     ) -> Result<Self, SweepError> {
+        if let Some(springs) = Self::read(plan, folder, hash)? {
+            return Ok(springs);
+        }
+        let springs = tune(plan, progress)?;
+        let filed = Filed { sweep: hash.into(), checksum: Filed::checksum(&springs)?, springs };
         let path = folder.join("springs.json");
-        let damaged = |reason: &str| SweepError::Damaged {
-            path: path.display().to_string(),
-            reason: reason.into(),
-        };
+        manifest::whole(&path, manifest::json("springs.json", &filed)?.as_bytes())?;
         // what is read back is what every later run will read
-        let read = || -> Result<Option<Filed>, SweepError> {
-            let text = match input::text(&path) {
-                Err(e) if e.kind() == ErrorKind::NotFound => return Ok(None),
-                text => text.map_err(|source| SweepError::File {
-                    path: path.display().to_string(),
-                    source,
-                })?,
-            };
-            let filed: Filed =
-                serde_json::from_str(&text).map_err(|e| damaged(&one_line(&e.to_string())))?;
-            if filed.sweep != hash || filed.checksum != Filed::checksum(&filed.springs)? {
-                return Err(damaged("holds other springs than those that tune sweep tuned"));
-            }
-            Ok(Some(filed))
+        Self::read(plan, folder, hash)?.ok_or_else(|| damaged(&path, "cannot be read back"))
+    }
+
+    /// The springs in a folder's `springs.json`, if it is there.
+    ///
+    /// # Errors
+    /// It cannot be read, is damaged, or is of another sweep.
+    pub fn read(plan: &Plan, folder: &Path, hash: &str) -> Result<Option<Self>, SweepError> {
+        let path = folder.join("springs.json");
+        let text = match input::text(&path) {
+            Err(e) if e.kind() == ErrorKind::NotFound => return Ok(None),
+            text => text
+                .map_err(|source| SweepError::File { path: path.display().to_string(), source })?,
         };
-        let filed = match read()? {
-            Some(filed) => filed,
-            None => {
-                let springs = tune(plan, progress)?;
-                let filed =
-                    Filed { sweep: hash.into(), checksum: Filed::checksum(&springs)?, springs };
-                manifest::whole(&path, manifest::json("springs.json", &filed)?.as_bytes())?;
-                read()?.ok_or_else(|| damaged("cannot be read back"))?
-            }
-        };
-        Self::of_filed(plan, &filed).ok_or_else(|| damaged("springs are missing"))
+        let filed: Filed =
+            serde_json::from_str(&text).map_err(|e| damaged(&path, &one_line(&e.to_string())))?;
+        if filed.sweep != hash || filed.checksum != Filed::checksum(&filed.springs)? {
+            return Err(damaged(&path, "holds other springs than those that tune sweep tuned"));
+        }
+        let springs = Self::of_filed(plan, &filed);
+        springs.map(Some).ok_or_else(|| damaged(&path, "springs are missing"))
     }
 
     fn of_filed(plan: &Plan, filed: &Filed) -> Option<Self> {
@@ -146,19 +159,22 @@ impl SpringsTable {
                 chains.push(springs.chains(subject.structure.mass_kg));
             }
         }
-        let missed = filed
-            .springs
-            .iter()
-            .filter(|tuned| !tuned.reached)
-            .map(|tuned| tuned.tuned_on.clone())
-            .collect();
-        Some(Self { chains, restitutions: plan.restitution_count(), missed })
+        let missed = filed.springs.iter().filter(|tuned| !tuned.reached);
+        Some(Self {
+            chains,
+            restitutions: plan.restitution_count(),
+            missed: missed.map(TunedSprings::doubt).collect(),
+        })
     }
 
     /// The springs of a structure with a restitution of the plan.
     pub(crate) fn of(&self, subject: usize, restitution: usize) -> Springs<Chain> {
         self.chains[subject * self.restitutions + restitution]
     }
+}
+
+fn damaged(path: &Path, reason: &str) -> SweepError {
+    SweepError::Damaged { path: path.display().to_string(), reason: reason.into() }
 }
 
 /// Every geometry with its largest structure, as they first appear.

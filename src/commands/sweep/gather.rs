@@ -25,6 +25,7 @@ use sweep::{
     plan::{InspectedSweep, Plan},
     row,
     spec::SweepKind,
+    springs::SpringsTable,
     summary,
 };
 use sweep_table::SweepTable;
@@ -136,7 +137,12 @@ pub fn gather(parts: &SweepParts, doubts: &[String], draw: bool) -> Result<(), C
     } else {
         histories(parts, out, draw, &save)?
     };
-    let checks = doubts.iter().map(|doubt| format!("CHECK {doubt}."));
+    let springs = match plan.model.fem() {
+        true => SpringsTable::read(plan, parts.folder, &parts.hash)?,
+        false => None,
+    };
+    let missed = springs.map_or(Vec::new(), |springs| springs.missed);
+    let checks = missed.iter().chain(doubts).map(|doubt| format!("CHECK {doubt}."));
     let said = said.into_iter().chain(checks).collect::<Vec<_>>().join("\n") + "\n";
     write_file(&out.join("summary.md"), said.as_bytes())?;
     folder.finish()?;
