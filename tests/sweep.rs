@@ -303,6 +303,7 @@ fn a_summary_of_some_parts_tells_of_how_many_histories() {
     let out = dir.path().join("whole");
     fs::remove_file(out.join("parts/part-00003-of-00025.parquet")).unwrap();
     let args = ["sweep", "gather", "sweep.toml", "--out", "whole", "--partial", "--no-figures"];
+    let args = [&args[..], &["--quiet"]].concat();
     assert!(tune(dir.path(), &args).status().unwrap().success());
     let summary = fs::read_to_string(out.join("summary.md")).unwrap();
     assert!(summary.starts_with("1404 of 1464 histories: 2 structures"), "{summary}");

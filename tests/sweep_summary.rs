@@ -171,3 +171,22 @@ fn springs_that_do_not_reach_their_accuracy_are_named_once_in_the_summary() {
                  not reach the accuracy of 0.001;";
     assert_eq!(ran.summary.matches(words).count(), 1, "{}", ran.summary);
 }
+
+/// One motion of two has a vertical component; a body is lifted at g tan(alpha) without it alone.
+#[test]
+fn a_summary_tells_of_vertical_motion_and_of_friction() {
+    let files = concat!(
+        "files = [\"",
+        env!("CARGO_MANIFEST_DIR"),
+        "/tests/records/20161113_110259_WTMC_20.V2A\"]\nel_centro = true"
+    );
+    let friction = "friction coefficient of at least b/h = tan(alpha): 0.250. With less it slides";
+    let up = fragility(&format!("{files}\nvertical = \"auto\""), "pga_g = [0.5]");
+    up.says("Motions with a vertical component: 1 of 2; the others are horizontal.");
+    up.says("  Without vertical motion it lifts at PGA = g tan(alpha) = 0.250 g.");
+    up.says(friction);
+    let across = fragility("el_centro = true", "pga_g = [0.5]");
+    across.says("  It lifts at PGA = g tan(alpha) = 0.250 g.");
+    across.says(friction);
+    across.does_not_say("vertical");
+}

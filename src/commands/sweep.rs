@@ -108,10 +108,10 @@ fn begin(
 impl SweepRunOptions {
     fn compute(&self, sweep: &Path) -> Result<(), CommandError> {
         let plan = Plan::read(sweep)?;
-        let InspectedSweep { hash, doubts } = inspected(&plan)?;
+        let inspected = inspected(&plan)?;
         threads(self.jobs)?;
-        let springs = begin(&plan, &hash, &self.out, self.quiet)?;
-        let parts = SweepParts::new(&plan, &self.out, &hash);
+        let springs = begin(&plan, &inspected.hash, &self.out, self.quiet)?;
+        let parts = SweepParts::new(&plan, &self.out, &inspected.hash);
         let share = self.shard.unwrap_or_default();
         let missing = parts.missing(share.parts(plan.parts()));
         for (part, reason) in &missing.unfit {
@@ -158,7 +158,7 @@ impl SweepRunOptions {
             ))?;
             return Ok(());
         }
-        gather::gather(&parts, &doubts, !self.no_figures)
+        gather::gather(&parts, &inspected, !self.no_figures)
     }
 }
 

@@ -176,6 +176,11 @@ impl Plan {
         if self.kind == SweepKind::Overturning { 1 } else { self.levels.len() }
     }
 
+    /// Whether motions of files are used with their vertical component.
+    pub(crate) fn takes_vertical(&self) -> bool {
+        self.making.read.vertical.is_some()
+    }
+
     /// Restitutions of each structure.
     pub fn restitution_count(&self) -> usize {
         self.restitutions.as_ref().map_or(1, Vec::len)

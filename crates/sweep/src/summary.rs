@@ -35,6 +35,31 @@ pub fn head(plan: &Plan, gathered: u64) -> String {
     )
 }
 
+/// What holds for all histories of a sweep: how many motions have a vertical component, and that
+/// bodies do not slide.
+pub fn assumptions(plan: &Plan, with_vertical: usize) -> Vec<String> {
+    let mut said = Vec::new();
+    if plan.takes_vertical() {
+        said.push(format!(
+            "Motions with a vertical component: {with_vertical} of {}; the others are horizontal.",
+            plan.motions.len()
+        ));
+    }
+    let widest = plan.subjects.iter().max_by(|a, b| a.alpha.total_cmp(&b.alpha));
+    said.extend(widest.map(|widest| {
+        let of = match &plan.subjects[..] {
+            [_] => String::new(),
+            _ => format!(" for {}, and less for more slender ones", widest.name),
+        };
+        format!(
+            "To lift, a body needs a friction coefficient of at least b/h = tan(alpha): \
+             {:.3}{of}. With less it slides, which a sweep does not follow.",
+            widest.alpha.tan()
+        )
+    }));
+    said
+}
+
 /// Structures that are spoken of one by one.
 const SPOKEN_OF: usize = 12;
 
@@ -201,10 +226,11 @@ fn at_levels(
         Kind::AFrame => "apex",
     };
     let mut text = format!(
-        "  It lifts at PGA = g tan(alpha) = {:.3} g.\n\
+        "  {} at PGA = g tan(alpha) = {:.3} g.\n\
          \n  | {measure} | P(overturn) | {:.0} % bounds | lifts | {top} moves, median / 84 % [mm] \
          | foot lifts [mm] |\n  \
          |---|---|---|---|---|---|",
+        if plan.takes_vertical() { "Without vertical motion it lifts" } else { "It lifts" },
         subject.uplift() / GRAVITY,
         100.0 * fragility.confidence
     );

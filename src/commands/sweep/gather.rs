@@ -44,6 +44,9 @@ pub struct GatherOptions {
     /// No figures
     #[arg(long)]
     no_figures: bool,
+    /// No progress, as for tune sweep; gathering shows none
+    #[arg(long = "quiet")]
+    _quiet: bool,
 }
 
 /// All that is gathered.
@@ -76,10 +79,10 @@ const NAMED: usize = 20;
 
 pub fn run(o: &GatherOptions) -> Result<(), CommandError> {
     let plan = Plan::read(&o.sweep)?;
-    let InspectedSweep { hash, doubts } = plan.inspect(&mut |_| {})?;
+    let inspected = plan.inspect(&mut |_| {})?;
     let folder = o.out.display().to_string();
-    Manifest::new(&plan, &hash).is_in(&o.out)?;
-    let mut parts = SweepParts::new(&plan, &o.out, &hash);
+    Manifest::new(&plan, &inspected.hash).is_in(&o.out)?;
+    let mut parts = SweepParts::new(&plan, &o.out, &inspected.hash);
     let all = plan.parts();
     let MissingParts { parts: missing, unfit } = parts.missing(0..all);
     if !missing.is_empty() {
@@ -102,7 +105,7 @@ pub fn run(o: &GatherOptions) -> Result<(), CommandError> {
         parts.gathered =
             Some((0..all).filter(|part| missing.binary_search(part).is_err()).collect());
     }
-    gather(&parts, &doubts, !o.no_figures)
+    gather(&parts, &inspected, !o.no_figures)
 }
 
 /// The first of many, in a line.
@@ -115,7 +118,11 @@ fn few(all: impl Iterator<Item = String>, between: &str) -> String {
 }
 
 /// Write everything that follows from the parts, and print the summary.
-pub fn gather(parts: &SweepParts, doubts: &[String], draw: bool) -> Result<(), CommandError> {
+pub fn gather(
+    parts: &SweepParts,
+    inspected: &InspectedSweep,
+    draw: bool,
+) -> Result<(), CommandError> {
     let plan = parts.plan;
     let folder = Folder::begin(
         parts.folder,
@@ -127,7 +134,7 @@ pub fn gather(parts: &SweepParts, doubts: &[String], draw: bool) -> Result<(), C
     let save = |name: &str, table: &SweepTable| {
         write_file(&out.join(name), (table.csv_head() + &table.csv_rows()).as_bytes())
     };
-    let said = if plan.kind == SweepKind::Overturning {
+    let mut said = if plan.kind == SweepKind::Overturning {
         let table = whole(parts, &overturning::table(plan, &[]))?;
         save("overturning.csv", &table)?;
         if draw {
@@ -137,12 +144,13 @@ pub fn gather(parts: &SweepParts, doubts: &[String], draw: bool) -> Result<(), C
     } else {
         histories(parts, out, draw, &save)?
     };
+    said.extend(summary::assumptions(plan, inspected.with_vertical));
     let springs = match plan.model.fem() {
         true => SpringsTable::read(plan, parts.folder, &parts.hash)?,
         false => None,
     };
     let missed = springs.map_or(Vec::new(), |springs| springs.missed);
-    let checks = missed.iter().chain(doubts).map(|doubt| format!("CHECK {doubt}."));
+    let checks = missed.iter().chain(&inspected.doubts).map(|doubt| format!("CHECK {doubt}."));
     let said = said.into_iter().chain(checks).collect::<Vec<_>>().join("\n") + "\n";
     write_file(&out.join("summary.md"), said.as_bytes())?;
     folder.finish()?;

@@ -19,6 +19,8 @@ pub struct InspectedSweep {
     pub hash: String,
     /// What to look at again, a line each.
     pub doubts: Vec<String>,
+    /// Motions whose vertical component is used.
+    pub with_vertical: usize,
 }
 
 /// Records are seldom scaled by more than ten, never by as much as this.
@@ -123,7 +125,7 @@ impl Plan {
         if self.model.fem() {
             text += &format!("{:?}", self.springs);
         }
-        let mut seen = HashMap::new();
+        let (mut seen, mut with_vertical) = (HashMap::new(), 0);
         for motion in &self.motions {
             match motion {
                 SweepMotion::Like(index, given) => {
@@ -145,6 +147,7 @@ impl Plan {
                     let print = used.fingerprint();
                     text += &format!("{print:x}");
                     let up = used.vertical.as_ref().map(|up| up.as_record(used.dt).fingerprint());
+                    with_vertical += usize::from(up.is_some());
                     text += &up.map_or(String::new(), |up| format!("{up:x}"));
                     same(&mut seen, (print, up), name, &mut doubts);
                 }
@@ -157,7 +160,8 @@ impl Plan {
                 _ => text += &format!("{motion:?}"),
             }
         }
-        Ok(InspectedSweep { hash: format!("{:016x}", fnv1a(text.bytes())), doubts: doubts.lines() })
+        let hash = format!("{:016x}", fnv1a(text.bytes()));
+        Ok(InspectedSweep { hash, doubts: doubts.lines(), with_vertical })
     }
 
     /// Doubts of a record, as it is read and as it is used.
