@@ -18,7 +18,7 @@ impl SweepRun {
         fs::write(dir.path().join("record.csv"), record).unwrap();
         let ran = Command::new(cargo_bin("tune"))
             .current_dir(dir.path())
-            .args(["sweep", "sweep.toml", "--out", "out", "--quiet", "--no-figures"])
+            .args(["sweep", "sweep.toml", "--out", "out", "--quiet"])
             .output()
             .unwrap();
         assert!(ran.status.success(), "{ran:?}");
@@ -32,6 +32,11 @@ impl SweepRun {
 
     fn does_not_say(&self, words: &str) {
         assert!(!self.summary.contains(words), "{words}\n{}", self.summary);
+    }
+
+    fn shows(&self, figure: &str, words: &str) {
+        let drawn = fs::read_to_string(self.dir.path().join("out").join(figure)).unwrap();
+        assert!(drawn.lines().any(|line| line == words), "{words} is not in {figure}");
     }
 
     /// The numbers of a column of a table.
@@ -131,6 +136,9 @@ fn structures_of_one_shape_are_told_apart_by_their_restitution() {
     same.says(&format!("{name}, e = 0.9, by"));
     same.says(&format!("{name}, number 2, e = 0.9, by"));
     same.does_not_say("equation 2");
+    own.shows("ida.svg", "block R 1.031 m, alpha 0.245, e = 0.72");
+    SweepRun::new(&spec("restitution = [0.9, 0.8]"), "")
+        .shows("ida.svg", "Peak rotation against PGA [g], 1 motions, e = 0.9");
 }
 
 /// Two blocks of alpha atan(1/4) and atan(1/2), of one size: the slender one overturns from the
@@ -157,6 +165,8 @@ fn the_least_pulse_is_told_in_both_measures_with_the_restitution() {
         ran.says(&format!("Least {what} that overturns: {peaks}"));
         ran.says(&format!(", e = {}.", e[row]));
     }
+    ran.shows("overturning.svg", "Pulses that overturn, 2 structures, e = 0.8");
+    ran.shows("overturning.svg", "block R 1.118 m, alpha 0.4636");
 }
 
 #[test]

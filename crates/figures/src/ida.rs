@@ -74,7 +74,7 @@ pub fn draw(data: &IdaFigure<'_>) -> Result<Sheet, FigureError> {
         let panel = Panel { frame, x: levels(subject), y: peaks(subject) };
         panel.axes(
             &mut canvas,
-            Some(&format!("{}: {}", subject.label, data.level_label)),
+            Some(&format!("{}\n{}", data.level_label, subject.label)),
             "peak |θ|/α",
             95.0,
         );

@@ -94,11 +94,8 @@ pub(crate) fn header(
 pub(crate) fn title(canvas: &mut Canvas, title: &str, (left, right): (f64, f64), y: f64) -> f64 {
     let mut below = 52.0;
     for (i, line) in title.lines().enumerate() {
-        let mut how = if i == 0 { Lettering::new(TITLE).bold() } else { Lettering::new(NUMBER) };
-        // A long line is set smaller rather than cut, as far as it can be read.
-        while how.length(line) > right - left && how.size > SMALLEST {
-            how.size -= 1.0;
-        }
+        let how = if i == 0 { Lettering::new(TITLE).bold() } else { Lettering::new(NUMBER) };
+        let how = how.fitted(line, right - left, SMALLEST);
         below += if i == 0 { 0.0 } else { 37.0 };
         canvas.text((left, y + below), line, how.at(HPos::Left, VPos::Bottom));
     }

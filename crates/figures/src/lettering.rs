@@ -62,6 +62,15 @@ impl Lettering {
         font::length(text, self.size, self.bold)
     }
 
+    /// The same in a size in which the text is no longer than `width` (pixel), at least `smallest`.
+    pub(crate) fn fitted(self, text: &str, width: f64, smallest: f64) -> Self {
+        let mut size = self.size;
+        while (Self { size, ..self }).length(text) > width && size > smallest {
+            size -= 1.0;
+        }
+        Self { size, ..self }
+    }
+
     /// From the point to the baseline (pixel), across the direction of reading.
     pub(crate) fn drop(self) -> f64 {
         self.size
@@ -70,5 +79,21 @@ impl Lettering {
                 VPos::Center => CAPITAL / 2.0,
                 VPos::Top => CAPITAL,
             }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_text_is_set_as_large_as_it_fits_and_a_short_one_as_it_is() {
+        let plain = Lettering::new(28.0);
+        assert_eq!(plain.fitted("short", 600.0, 14.0).size, 28.0);
+        let long = "mavroeidis-papageorgiou, block R 0.5056 m, alpha 0.1489: ω/p";
+        let fitted = plain.fitted(long, 600.0, 14.0);
+        let larger = Lettering { size: fitted.size + 1.0, ..fitted };
+        assert!(fitted.length(long) <= 600.0 && larger.length(long) > 600.0, "{fitted:?}");
+        assert_eq!(plain.fitted(long, 10.0, 14.0).size, 14.0);
     }
 }

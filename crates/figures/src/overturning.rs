@@ -28,7 +28,7 @@ pub struct AmplitudeInterval {
 /// One pulse and structure.
 #[derive(Clone, Debug)]
 pub struct Spectrum {
-    /// Its name.
+    /// Its name, in one line or two.
     pub label: String,
     /// Every frequency that was looked at, increasing.
     pub frequencies: Vec<f64>,
@@ -129,6 +129,6 @@ fn one(canvas: &mut Canvas, data: &OverturningFigure<'_>, spectrum: &Spectrum, f
         let (a, b) = (panel.at_clamped(from, above), panel.at_clamped(to, interval.from));
         canvas.block(a, b, colour(interval.impacts).mix(0.8));
     }
-    panel.axes(canvas, Some(&format!("{}: ω/p", spectrum.label)), "a/(g tan α)", 95.0);
+    panel.axes(canvas, Some(&format!("ω/p, {}", spectrum.label)), "a/(g tan α)", 95.0);
     panel.level(canvas, 1.0, lift());
 }

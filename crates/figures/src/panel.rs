@@ -49,7 +49,8 @@ impl Panel {
         self.at(self.x.clamp(x), self.y.clamp(y))
     }
 
-    /// Grid, axes, numbers and labels; no numbers below when there is no label for x. `gutter` is
+    /// Grid, axes, numbers and labels; no numbers below when there is no label for x, whose lines
+    /// are set smaller where they are longer than the axis. `gutter` is
     /// the distance of the y label's middle from the axis (pixel); long numbers push it farther.
     pub(crate) fn axes(
         &self,
@@ -96,11 +97,11 @@ impl Panel {
                 let x = self.at(tick.value, self.y.low).0;
                 canvas.text((x, bottom + 17.0), &tick.label, number.at(HPos::Center, VPos::Top));
             }
-            canvas.text(
-                ((left + right) / 2.0, bottom + 57.0),
-                x_label,
-                label.at(HPos::Center, VPos::Top),
-            );
+            for (i, line) in x_label.lines().enumerate() {
+                let label = label.fitted(line, right - left, 0.5 * LABEL);
+                let y = bottom + 57.0 + ROW * i as f64;
+                canvas.text(((left + right) / 2.0, y), line, label.at(HPos::Center, VPos::Top));
+            }
         }
     }
 

@@ -48,7 +48,7 @@ pub fn assumptions(plan: &Plan, with_vertical: usize) -> Vec<String> {
     let widest = plan.subjects.iter().max_by(|a, b| a.alpha.total_cmp(&b.alpha));
     said.extend(widest.map(|widest| {
         let of = match &plan.subjects[..] {
-            [_] => String::new(),
+            all if all.iter().all(|other| other.alpha == widest.alpha) => String::new(),
             _ => format!(" for {}, and less for more slender ones", widest.name),
         };
         format!(

@@ -37,14 +37,8 @@ pub fn fragility(plan: &Plan, fragility: &Fragility, path: &Path) -> Result<(), 
         let observed = fragility.observed(row, &states, OBSERVED);
         curve(row, entry, half_width, observed)
     };
-    let measure = |index: usize, curves: Vec<probability::FragilityCurve>| {
-        let (name, unit) = MEASURES[index];
-        let unit = if unit == "-" { String::new() } else { format!(" [{unit}]") };
-        probability::MeasurePanel {
-            label: format!("{}{unit}", name.replace("alpha", "α")), curves
-        }
-    };
     let model = if MODELS[first] == "fem" { "finite elements" } else { "Housner" };
+    let e = restitution_shown(plan);
     let who = if several {
         format!("all {} structures", plan.subjects.len())
     } else {
@@ -60,7 +54,10 @@ pub fn fragility(plan: &Plan, fragility: &Fragility, path: &Path) -> Result<(), 
         let rows = |index: usize| fragility.rows.iter().filter(move |row| row.measure == index);
         let curves = |index: usize| rows(index).filter_map(|row| curve(row, entry(row)?)).collect();
         let measures: Vec<probability::MeasurePanel> = (0..MEASURES.len())
-            .map(|index| measure(index, curves(index)))
+            .map(|index| probability::MeasurePanel {
+                label: measure_label(index),
+                curves: curves(index),
+            })
             .filter(|measure| !measure.curves.is_empty())
             .collect();
         if measures.is_empty() {
@@ -74,7 +71,7 @@ pub fn fragility(plan: &Plan, fragility: &Fragility, path: &Path) -> Result<(), 
             false => format!("{name}: no fit"),
         };
         let names: Vec<String> = names.iter().enumerate().map(named).collect();
-        let title = format!("{what}, {} motions, {model}", plan.motions.len());
+        let title = format!("{what}, {} motions, {model}{e}", plan.motions.len());
         let label = probability_label(fragility);
         let data = probability::FragilityFigure {
             title: &title,
@@ -103,6 +100,21 @@ pub fn fragility(plan: &Plan, fragility: &Fragility, path: &Path) -> Result<(), 
     let each = path.with_file_name("fragility_structures.png");
     save("Overturning of each structure".to_string(), &names, &alone, &each)?;
     Ok(())
+}
+
+/// A measure of intensity with its unit.
+fn measure_label(index: usize) -> String {
+    let (name, unit) = MEASURES[index];
+    let unit = if unit == "-" { String::new() } else { format!(" [{unit}]") };
+    format!("{}{unit}", name.replace("alpha", "α"))
+}
+
+/// The restitution that a figure shows, where a sweep has several: the first.
+fn restitution_shown(plan: &Plan) -> String {
+    match plan.restitutions.as_deref() {
+        Some([first, _, ..]) => format!(", e = {first}"),
+        _ => String::new(),
+    }
 }
 
 /// What a fit shows; there are no bounds of one record, nor of records that do not differ.
@@ -188,8 +200,12 @@ pub fn ida(plan: &Plan, ida: &Ida, path: &Path) -> Result<(), CommandError> {
     if subjects.is_empty() {
         return Ok(());
     }
-    let title =
-        format!("Peak rotation against {}, {} motions", level_label(plan), plan.motions.len());
+    let title = format!(
+        "Peak rotation against {}, {} motions{}",
+        level_label(plan),
+        plan.motions.len(),
+        restitution_shown(plan)
+    );
     Ok(levels::draw(&levels::IdaFigure {
         title: &title,
         level_label: level_label(plan),
@@ -242,7 +258,7 @@ pub fn overturning(plan: &Plan, table: &SweepTable, path: &Path) -> Result<(), C
     let mut spectra = Vec::new();
     for (index, name, kind) in spectra_of(plan).take(PANELS) {
         let which = if plan.subjects.len() > 1 {
-            format!(", structure {}", index + 1)
+            format!("\n{}", plan.subjects[index].name)
         } else {
             String::new()
         };
@@ -267,7 +283,7 @@ pub fn overturning(plan: &Plan, table: &SweepTable, path: &Path) -> Result<(), C
         };
         let intervals = (0..table.rows()).filter(mine).map(interval).collect();
         spectra.push(spectra::Spectrum {
-            label: format!("{name}{which}{how}"),
+            label: format!("{name}{how}{which}"),
             frequencies,
             intervals,
         });
@@ -277,7 +293,7 @@ pub fn overturning(plan: &Plan, table: &SweepTable, path: &Path) -> Result<(), C
     let title = match &plan.subjects[..] {
         [one] => format!("Pulses that overturn: {}", one.name),
         all => format!("Pulses that overturn, {} structures", all.len()),
-    };
+    } + &restitution_shown(plan);
     let amplitudes = (0.9 * low, high);
     let data =
         spectra::OverturningFigure { title: &title, spectra: &spectra, frequencies, amplitudes };
@@ -315,7 +331,8 @@ pub fn rocking(plan: &Plan, ida: &Ida, path: &Path) -> Result<(), CommandError> 
         [one] => one.name(),
         all => format!("median of {} motions", all.len()),
     };
-    let title = format!("Rocking spectrum, {of}, {} {}", level_label(plan), plan.levels[0]);
+    let e = restitution_shown(plan);
+    let title = format!("Rocking spectrum, {of}, {} {}{e}", level_label(plan), plan.levels[0]);
     Ok(maps::draw(&maps::RockingFigure { title: &title, maps: &maps_found })?.save(path)?)
 }
 

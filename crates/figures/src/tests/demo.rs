@@ -286,7 +286,32 @@ fn draw_record() -> Result<Sheet, FigureError> {
 }
 
 /// Every figure: its name, and how to draw it.
-pub const FIGURES: [(&str, Draw); 10] = [
+/// Two panels, whose names are longer than their axes.
+fn draw_overturning() -> Result<Sheet, FigureError> {
+    let frequencies: Vec<f64> = (0..30).map(|i| 1.0 + 0.1 * f64::from(i)).collect();
+    let interval = |&q: &f64| overturning::AmplitudeInterval {
+        q,
+        from: 1.0 + q,
+        to: 1.5 * (1.0 + q),
+        impacts: 0,
+    };
+    let spectrum = |size: f64| overturning::Spectrum {
+        label: format!(
+            "mavroeidis-papageorgiou gamma 1.5 nu 0.5, finite elements\n\
+             block R {size} m, alpha 0.1489, e = 0.9672 (equation 2), number 2"
+        ),
+        intervals: frequencies.iter().map(interval).collect(),
+        frequencies: frequencies.clone(),
+    };
+    overturning::draw(&overturning::OverturningFigure {
+        title: "Pulses that overturn, 2 structures",
+        spectra: &[spectrum(0.5056), spectrum(1.031)],
+        frequencies: (1.0, 4.0),
+        amplitudes: (0.9, 10.0),
+    })
+}
+
+pub const FIGURES: [(&str, Draw); 11] = [
     ("history", || draw_history(false)),
     ("arr", draw_arr),
     ("candidates", draw_candidates),
@@ -296,5 +321,6 @@ pub const FIGURES: [(&str, Draw); 10] = [
     ("record", draw_record),
     ("validation", draw_validation),
     ("precision", draw_precision),
+    ("overturning", draw_overturning),
     ("three", || draw_history(true)),
 ];
