@@ -146,7 +146,7 @@ pub fn gather(
     };
     said.extend(summary::assumptions(plan, inspected.with_vertical));
     let springs = match plan.model.fem() {
-        true => SpringsTable::read(plan, parts.folder, &parts.hash)?,
+        true => SpringsTable::read(plan, parts.folder, parts.hash)?,
         false => None,
     };
     let missed = springs.map_or(Vec::new(), |springs| springs.missed);
