@@ -138,19 +138,20 @@ fn another_sweep_in_the_same_folder_is_refused() {
     let write = |text: &str| fs::write(dir.path().join("sweep.toml"), text).unwrap();
     write(&SWEEP.replace("earthquakes = 40", "").replace("synthetic = 20", ""));
     sweep(dir.path(), "out", &["--no-figures"]);
-    write(
-        &SWEEP
-            .replace("earthquakes = 40", "")
-            .replace("synthetic = 20", "")
-            .replace("seed = 5", "seed = 6"),
-    );
-    let refused = tune(dir.path(), &["sweep", "sweep.toml", "--out", "out"])
-        .stderr(Stdio::piped())
-        .output()
-        .unwrap();
-    let said = String::from_utf8(refused.stderr).unwrap();
-    assert_eq!(refused.status.code(), Some(2));
-    assert!(said.contains("holds another sweep") && said.lines().count() == 1, "{said}");
+    let few = SWEEP.replace("earthquakes = 40", "").replace("synthetic = 20", "");
+    for other in [
+        few.replace("seed = 5", "seed = 6"),
+        few.replace("mass_kg = 400.0", "mass_kg = 400.0\nname = \"cabinet\""),
+    ] {
+        write(&other);
+        let refused = tune(dir.path(), &["sweep", "sweep.toml", "--out", "out"])
+            .stderr(Stdio::piped())
+            .output()
+            .unwrap();
+        let said = String::from_utf8(refused.stderr).unwrap();
+        assert_eq!(refused.status.code(), Some(2));
+        assert!(said.contains("holds another sweep") && said.lines().count() == 1, "{said}");
+    }
 }
 
 /// What `tune sweep gather` says of a folder; it must refuse it in one line.

@@ -141,6 +141,20 @@ fn structures_of_one_shape_are_told_apart_by_their_restitution() {
         .shows("ida.svg", "Peak rotation against PGA [g], 1 motions, e = 0.9");
 }
 
+#[test]
+fn a_structure_has_the_name_that_its_user_gives() {
+    let spec = format!(
+        "[sweep]\nkind = \"fragility\"\n{BLOCK}name = \"cabinet <1>, \\\"left\\\"\"\n{BLOCK}\
+         [records]\nel_centro = true\n[levels]\npga_g = [0.5]\n"
+    );
+    let ran = SweepRun::new(&spec, "");
+    ran.says("- cabinet <1>, \"left\", by Housner's equation");
+    ran.says("- block R 1.031 m, alpha 0.245, by Housner's equation");
+    ran.shows("ida.svg", "cabinet &lt;1&gt;, &quot;left&quot;");
+    let table = fs::read_to_string(ran.dir.path().join("out/ida.csv")).unwrap();
+    assert!(table.contains("\"cabinet <1>, \"\"left\"\"\""), "{table}");
+}
+
 /// Two blocks of alpha atan(1/4) and atan(1/2), of one size: the slender one overturns from the
 /// least PGA, and which has the least PGA/(g tan alpha) is in the table.
 #[test]

@@ -54,6 +54,7 @@ kind = \"block\"           # or \"aframe\"
 total_height_m = 2.0
 width_m = 0.5
 mass_kg = 400.0
+# name = \"cabinet\"      # in tables and figures
 
 [records]                # any of these, or several
 earthquakes = 100        # made, like earthquakes

@@ -37,6 +37,9 @@ fn a_sweep_that_asks_for_nothing_or_twice_is_refused_with_its_line() {
             ["line 3", "restitution has 1.5"],
         ),
         (format!("{HEAD}model = \"both ways\"\n{BLOCK}{GROUND}{LEVELS}"), ["line 3", "known are"]),
+        (format!("{HEAD}{BLOCK}name = \"a\\nb\"\n{GROUND}{LEVELS}"), ["line 8", "1 to 40 letters"]),
+        (format!("{HEAD}{BLOCK}name = 3\n{GROUND}{LEVELS}"), ["line 8", "a text in quotes"]),
+        (format!("{HEAD}{BLOCK}names = \"a\"\n{GROUND}{LEVELS}"), ["line 8", "unknown"]),
         (format!("{HEAD}part = 0\n{BLOCK}{GROUND}{LEVELS}"), ["line 3", "1 to 1000000"]),
         (
             format!("{HEAD}{BLOCK}[records]\nearthquakes = 0\n{LEVELS}"),

@@ -33,6 +33,7 @@ pub mod levels;
 pub mod lognormal;
 pub mod manifest;
 pub mod motion;
+mod named;
 pub mod overturning;
 pub mod parts;
 pub mod plan;

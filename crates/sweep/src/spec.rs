@@ -14,6 +14,7 @@
 //! height_m = 61.0
 //! width_m = 12.2
 //! mass_kg = 680.1e3
+//! name = "tower"                      # in tables and figures; by kind, R and alpha unless given
 //!
 //! [grid]                              # or all combinations of
 //! kind = ["block"]
@@ -49,8 +50,8 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
-use super::{SweepError, pulse, values::Values};
-use cases::{StructureSection, parse_error};
+use super::{SweepError, named::NamedStructure, pulse, values::Values};
+use cases::parse_error;
 use rocking::structure;
 use strong_motion::{Units, VerticalFrom};
 
@@ -175,7 +176,7 @@ pub(crate) struct SpringsSection {
 pub(crate) struct Spec {
     pub sweep: SweepSection,
     #[serde(default)]
-    pub structure: Vec<Spanned<StructureSection>>,
+    pub structure: Vec<Spanned<NamedStructure>>,
     pub grid: Option<Spanned<Grid>>,
     #[serde(default)]
     pub records: Records,

@@ -116,7 +116,8 @@ impl Plan {
             self.model
         );
         for subject in &self.subjects {
-            text += &format!("{:?} {:?}", subject.structure, subject.restitution);
+            // the parts hold the name
+            text += &format!("{} {:?} {:?}", subject.name, subject.structure, subject.restitution);
             let given = subject.doubts.iter().cloned().map(SweepDoubt::Given);
             given.for_each(|doubt| doubts.add(&subject.name, doubt));
         }

@@ -6,6 +6,7 @@ use toml::Spanned;
 
 use crate::{
     SweepError,
+    named::NamedStructure,
     spec::{Grid, Kinds, SweepSource},
 };
 use cases::doubts::Doubt;
@@ -60,13 +61,17 @@ fn digits(x: f64) -> String {
 /// All structures that the file asks for.
 pub(super) fn subjects(source: &SweepSource) -> Result<Vec<Subject>, SweepError> {
     let mut subjects = Vec::new();
-    for section in &source.spec.structure {
+    for named in &source.spec.structure {
+        let NamedStructure { name, section } = named.get_ref();
         let (structure, e) = section
-            .get_ref()
             .checked(&source.path)
-            .map_err(|e| source.at(section, reason(&source.path, &e.to_string())))?;
-        let doubts = section.get_ref().doubts(&structure);
-        subjects.push(Subject { doubts, ..Subject::new(structure, e) });
+            .map_err(|e| source.at(named, reason(&source.path, &e.to_string())))?;
+        let mut subject = Subject::new(structure, e);
+        subject.doubts = section.doubts(&structure);
+        if let Some(name) = name {
+            subject.name = checked_name(source, name)?;
+        }
+        subjects.push(subject);
     }
     if let Some(grid) = &source.spec.grid {
         of_grid(source, grid, &mut subjects)?;
@@ -82,6 +87,22 @@ pub(super) fn subjects(source: &SweepSource) -> Result<Vec<Subject>, SweepError>
     }
     number_namesakes(&mut subjects);
     Ok(subjects)
+}
+
+/// Letters of a structure's name at most: a figure's legend holds it.
+const LONGEST_NAME: usize = 40;
+
+/// A name that tables and figures can hold in one line.
+fn checked_name(source: &SweepSource, name: &Spanned<String>) -> Result<String, SweepError> {
+    let text = name.get_ref().trim();
+    if text.is_empty()
+        || text.chars().count() > LONGEST_NAME
+        || text.contains(|c: char| c.is_control() || c == '|')
+    {
+        return Err(source
+            .at(name, format!("name: give 1 to {LONGEST_NAME} letters in one line, without |")));
+    }
+    Ok(text.into())
 }
 
 /// The structures' restitutions in their names, where some are equation 2's and others are not, or
