@@ -34,6 +34,20 @@ impl fmt::Display for Integrator {
     }
 }
 
+impl Integrator {
+    /// In words: "HHT alpha -1/3".
+    pub fn words(&self) -> String {
+        match self {
+            Self::Hht { alpha } if (alpha + 1.0 / 3.0).abs() < 1e-9 => "HHT alpha -1/3".into(),
+            Self::Hht { alpha } => format!("HHT alpha {alpha}"),
+            Self::Newmark { gamma, beta } => format!("Newmark gamma {gamma}, beta {beta}"),
+            Self::GeneralizedAlpha { rho_inf } => format!("generalized alpha, rho_inf {rho_inf}"),
+            Self::Trbdf2 => "TRBDF2".into(),
+            Self::BackwardEuler => "BackwardEuler".into(),
+        }
+    }
+}
+
 impl FromStr for Integrator {
     type Err = IntegratorNameError;
 

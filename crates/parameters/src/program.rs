@@ -142,17 +142,15 @@ pub struct ProgramOnRecord {
     pub predictable: Option<bool>,
 }
 
+/// Below this a displacement is rounding (m).
+const ROUNDING_M: f64 = 1e-12;
+
 impl ProgramOnRecord {
     /// When it ends, if not with the record (s).
     pub fn ends_s(&self) -> Option<f64> {
         self.gives_up_s.or(self.falls_s)
     }
-}
 
-/// Below this a displacement is rounding (m).
-const ROUNDING_M: f64 = 1e-12;
-
-impl ProgramOnRecord {
     /// From the largest top displacements of a history and of the reference, where both stand.
     pub fn of(tops: Option<[f64; 2]>, gives_up_s: Option<f64>) -> Self {
         let top = tops.filter(|[_, reference]| *reference > ROUNDING_M && gives_up_s.is_none());
@@ -380,21 +378,7 @@ impl<U> ProgramRow<U> {
 
     /// Its integrator in words: "HHT alpha -1/3".
     pub fn integrator_words(&self) -> String {
-        match self.integrator.parse::<Integrator>() {
-            Ok(Integrator::Hht { alpha }) if (alpha + 1.0 / 3.0).abs() < 1e-9 => {
-                "HHT alpha -1/3".into()
-            }
-            Ok(Integrator::Hht { alpha }) => format!("HHT alpha {alpha}"),
-            Ok(Integrator::Newmark { gamma, beta }) => {
-                format!("Newmark gamma {gamma}, beta {beta}")
-            }
-            Ok(Integrator::GeneralizedAlpha { rho_inf }) => {
-                format!("generalized alpha, rho_inf {rho_inf}")
-            }
-            Ok(Integrator::Trbdf2) => "TRBDF2".into(),
-            Ok(Integrator::BackwardEuler) => "BackwardEuler".into(),
-            Err(_) => self.integrator.clone(),
-        }
+        self.integrator.parse::<Integrator>().map_or(self.integrator.clone(), |i| i.words())
     }
 }
 

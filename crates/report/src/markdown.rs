@@ -5,8 +5,8 @@ use files::message::{percent, quantity, significant};
 use results::{DesignForce, DesignForces, ForceName, OtherForces};
 
 /// What the mark "not predictable" of a force means.
-const ONE_OF_MANY: &str = " Not predictable: the motion up to that time is one of many alike, and no \
-                           model tells which; design by many motions.";
+const ONE_OF_MANY: &str = " Not predictable: the motion up to that time is one of many alike, \
+                           and no model tells which: design by many motions.";
 
 /// The whole of it.
 pub fn markdown(run: &Run) -> String {

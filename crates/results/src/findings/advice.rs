@@ -14,9 +14,7 @@ impl Finding {
             | Self::MembersBeside { .. }
             | Self::NearMotions { .. }
             | Self::DeckJudged { .. }
-            | Self::WithoutVertical { .. } => {
-                return None;
-            }
+            | Self::WithoutVertical { .. } => return None,
             Self::NeverLifts { .. } => "give a stronger record, or scale it: --scale",
             Self::Overturns { .. } => "scale the record down for the margin: --scale",
             Self::NoAnswer { .. } | Self::HistoryEndsEarly { ending: Ending::WorkBound, .. } => {

@@ -1,5 +1,6 @@
 //! The words of findings.
 
+mod forces;
 mod regime;
 mod taken;
 
@@ -81,9 +82,8 @@ impl Finding {
     /// In one sentence.
     pub(crate) fn message(&self) -> String {
         match self {
+            Self::Slides { .. } | Self::LeftAside { .. } => self.slip(),
             Self::NeverLifts { .. }
-            | Self::Slides { .. }
-            | Self::LeftAside { .. }
             | Self::Stands { .. }
             | Self::Overturns { .. }
             | Self::NoAnswer { .. }
@@ -100,10 +100,10 @@ impl Finding {
             | Self::RestitutionMissed { .. }
             | Self::RestitutionOutOfReach { .. }
             | Self::LandingsUnfinished { .. }
-            | Self::ForceWithheld { .. }
-            | Self::ForcesHeldInPart { .. }
-            | Self::ForcesAtRest { .. }
             | Self::MembersBeside { .. } => self.springs(),
+            Self::ForceWithheld { .. }
+            | Self::ForcesHeldInPart { .. }
+            | Self::ForcesAtRest { .. } => self.forces(),
             Self::ProgramStepTooLong { .. }
             | Self::ProgramLoses { .. }
             | Self::ProgramNotToBeUsed { .. }
@@ -125,6 +125,24 @@ impl Finding {
         }
     }
 
+    /// How it slides.
+    fn slip(&self) -> String {
+        match self {
+            Self::Slides { friction, uplift_g, largest_m, left_m } => format!(
+                "it slides and does not rock: {} g lifts it, and friction of {} gives way before; \
+                    it moves {} at most, and ends {} beside its place",
+                significant(*uplift_g, 3),
+                significant(*friction, 3),
+                quantity(*largest_m, "m"),
+                quantity(*left_m, "m")
+            ),
+            Self::LeftAside { left_m } => {
+                format!("it slips as well, and ends {} beside its place", quantity(*left_m, "m"))
+            }
+            _ => String::new(),
+        }
+    }
+
     /// What the structure does.
     fn outcome(&self) -> String {
         match self {
@@ -136,17 +154,6 @@ impl Finding {
                     significant(*pga_g, 4),
                     significant(*uplift_g, 4)
                 )
-            }
-            Self::Slides { friction, uplift_g, largest_m, left_m } => format!(
-                "it slides and does not rock: {} g lifts it, and friction of {} gives way before; \
-                    it moves {} at most, and ends {} beside its place",
-                significant(*uplift_g, 3),
-                significant(*friction, 3),
-                quantity(*largest_m, "m"),
-                quantity(*left_m, "m")
-            ),
-            Self::LeftAside { left_m } => {
-                format!("it slips as well, and ends {} beside its place", quantity(*left_m, "m"))
             }
             Self::Stands {
                 share_of_overturning,
@@ -301,47 +308,6 @@ impl Finding {
             Self::LandingsUnfinished { finished, all } => {
                 format!("{} of {all} test landings came to no end on these springs", all - finished)
             }
-            Self::ForceWithheld {
-                force,
-                change: Some(change),
-                housner: Some(housner),
-                of_block,
-            } => {
-                let words = if *of_block { force.words_of_block() } else { force.words() };
-                format!(
-                    "{words} is withheld: between impacts it differs by {} on the springs from \
-                        Housner's {}",
-                    percent(*change),
-                    quantity(housner.abs(), force.unit())
-                )
-            }
-            Self::ForceWithheld { force, change, of_block, .. } => {
-                let words = if *of_block { force.words_of_block() } else { force.words() };
-                let by = change.map_or("could not be checked".into(), |change| {
-                    format!("varies {}", percent(change))
-                });
-                format!("{words} is withheld: {by} with springs or mesh")
-            }
-            Self::ForcesHeldInPart { over_s, changes } => {
-                let all = |words: fn(&PeakChange) -> String| {
-                    joined(&changes.iter().map(words).collect::<Vec<_>>())
-                };
-                format!(
-                    "{} {} of the first {} s alone: over the whole record {} would be {}, and \
-                        change by 5 % or more with springs or mesh",
-                    all(|change| change.quantity.clone()),
-                    if changes.len() == 1 { "is" } else { "are" },
-                    significant(*over_s, 3),
-                    if changes.len() == 1 { "it" } else { "they" },
-                    all(|change| quantity(change.with, &change.unit))
-                )
-            }
-            Self::ForcesAtRest { forces } => format!(
-                "{} {} largest at rest: the frame's own weight, with a vertical motion more of it, \
-                    half on each foot and no thrust between them; rocking adds nothing",
-                listed(forces),
-                if forces.len() == 1 { "is" } else { "are" }
-            ),
             Self::MembersBeside { .. } => {
                 "springs are tuned for the structure without its dampers, tendon and friction"
                     .into()

@@ -110,9 +110,9 @@ fn forces(run: &ElasticRun) -> Result<Figure, FigureError> {
         stack::draw(&StackFigure { title: &title, t: &t, names, panels: &panels, event: None })?;
     Ok(Figure {
         name: draw::BEARING,
-        caption: "What the structure bears when it rocks, and held to the ground: of each force the \
-                  column or leg in which it is largest, unfiltered: of forces that the table has \
-                  filtered or withholds, the spikes at landings are those of springs and mesh.",
+        caption: "What the structure bears when it rocks, and held to the ground: of each force \
+                  the column or leg in which it is largest. Of forces that the table has filtered \
+                  or withholds, the spikes at landings are those of springs and mesh.",
         sheet,
     })
 }

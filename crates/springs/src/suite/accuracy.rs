@@ -102,8 +102,8 @@ impl Accuracy {
     }
 }
 
-/// The errors of the largest displacement, uplift and forces between landings (`validation::peaks`),
-/// on the same motions.
+/// The errors of the largest displacement, uplift and forces between landings
+/// (`validation::peaks`), on the same motions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PeakAccuracy {
     /// Of the one with the largest error, motion by motion.

@@ -326,7 +326,8 @@ fn a_corner_that_lands_flat_slides_on_springs_as_on_rigid_ground() {
             .unwrap();
         sway_errors(&of_reference, &model.sways(history.q.iter().map(Vec::as_slice)), accel.len())
     };
-    let [soft, stiff] = [1e-5, 1e-7].map(error);
+    // from there on they stay 5e-4 apart, however stiff
+    let [soft, stiff] = [1e-4, 1e-7].map(error);
     assert!(soft[0] < 2e-3 && soft[1] < 5e-3, "{soft:?}");
     assert!(stiff[0] < 0.5 * soft[0] && stiff[1] < 0.5 * soft[1], "{stiff:?} {soft:?}");
 }
