@@ -251,3 +251,16 @@ fn vertical(folder: &std::path::Path, width: f64, scale: f64) -> (String, String
     let report = report.replace("<span class=\"q\">", "").replace("</span>", "");
     (String::from_utf8_lossy(&ran.stdout).into_owned(), report)
 }
+
+/// The paper's frame moves furthest at 9.59 s: cut shortly before, a record ends in the swing.
+#[test]
+fn a_record_cut_in_the_largest_swing_is_told() {
+    let told = |duration: &str| {
+        let folder = folder_with("");
+        let output = command(folder.path(), &["--duration", duration]).output();
+        assert!(output.as_ref().is_ok_and(|output| output.status.success()), "{output:?}");
+        let findings = parameters(folder.path())["findings"].clone();
+        findings.as_array().unwrap().iter().any(|found| found["finding"] == "cut_at_largest")
+    };
+    assert!(told("9.5") && !told("12"));
+}

@@ -158,6 +158,9 @@ impl RecordOptions {
         duration(self.duration)?;
         match self.scale {
             Some(0.0) => Err(CommandError::option("scale", 0.0, NO_MOTION)),
+            Some(scale) if !scale.is_finite() => {
+                Err(CommandError::option("scale", scale, "give a finite number"))
+            }
             _ => Ok(()),
         }
     }

@@ -10,8 +10,8 @@ use thiserror::Error;
 pub enum IntegratorNameError {
     /// Unknown, or not with these numbers.
     #[error(
-        "integrator {name:?}: give newmark:GAMMA:BETA, hht:ALPHA (0 to -1/3), \
-         generalized-alpha:RHO (0 to 1), trbdf2 or backward-euler"
+        "integrator {name:?}: give newmark:GAMMA:BETA, hht:ALPHA (0 to -1/2; \
+         stable to -1/3), generalized-alpha:RHO (0 to 1), trbdf2 or backward-euler"
     )]
     Unknown {
         /// As given.

@@ -86,7 +86,8 @@ pub enum ElasticError {
     Shortens { member: &'static str, share: f64, least: f64 },
     #[error(
         "structure: {member} buckles under the weight, and the tendon if there is one, {load:.3e} \
-         N over {critical:.3e} N; give a larger ei_nm2 (in N m2, not kN m2) or frequency_hz"
+         N over {critical:.3e} N; give it a larger EI (in N m2, not kN m2), or a pier a higher \
+         frequency_hz"
     )]
     Buckles { member: &'static str, load: f64, critical: f64 },
     #[error(

@@ -6,7 +6,7 @@ mod peaks;
 pub(crate) mod springs;
 
 use self::springs::{alone, springs_findings};
-use super::{Assumed, FiledParameters, Run, Section, Table, doubts, judged};
+use super::{Assumed, FiledParameters, Run, Section, Table, cut_at_largest, doubts, judged};
 use cases::{ElasticCase, doubts::Doubt};
 use dynamics::{
     fem::HistoryOutcome,
@@ -137,6 +137,8 @@ impl ElasticParts<'_> {
         let predictable = parameters.on_record.is_none_or(|on| on.foretold_s.is_none());
         let apart = self.feet_apart();
         all.extend(apart.map(|apart_m| Finding::FeetApart { apart_m, predictable }));
+        let (whole, peaks) = (&self.case.excitation.record, self.peaks().reference);
+        all.extend(cut_at_largest(&peaks, whole, self.record));
         all.extend(self.vertical_left_out());
         all.extend(doubts(self.case.doubts()));
         all.extend(springs_findings(parameters));

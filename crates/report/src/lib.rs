@@ -42,9 +42,10 @@ use parameters::{Parameters, elastic::ElasticParameters};
 pub use program::ProgramReport;
 pub use results::predictable_to;
 use results::{
-    DesignForce, DesignForces, FiledFinding, Finding, ForceName, PeakChange, PeakPair, Weight,
-    findings::HARDLY_ROCKS,
+    DesignForce, DesignForces, FiledFinding, Finding, ForceName, PeakChange, PeakPair, Peaks,
+    Weight, findings::HARDLY_ROCKS,
 };
+use strong_motion::Record;
 pub use table::Table;
 
 /// A value the user did not give, and the key that sets it.
@@ -111,6 +112,14 @@ fn changes(
         },
     );
     top.into_iter().chain(forces).collect()
+}
+
+/// That the part of a record that is taken ends when the displacement is largest.
+fn cut_at_largest(peaks: &Peaks, whole: &Record, taken: &Record) -> Option<Finding> {
+    let (time_s, dt) = (taken.duration(), taken.dt);
+    let is_cut = time_s + 0.5 * dt < whole.duration();
+    let at_end = peaks.times?.top_displacement_s + 0.5 * dt > time_s;
+    (is_cut && at_end).then_some(Finding::CutAtLargest { time_s })
 }
 
 /// The case as it was understood.

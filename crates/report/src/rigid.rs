@@ -8,8 +8,8 @@ pub mod tables;
 mod taken;
 
 use super::{
-    AccuracyReport, Assumed, FiledParameters, ProgramReport, Run, Section, Taken, changes, doubts,
-    filed, judged,
+    AccuracyReport, Assumed, FiledParameters, ProgramReport, Run, Section, Taken, changes,
+    cut_at_largest, doubts, filed, judged,
     program::with_verdict,
     reference::{self, HousnerReport},
     stiffness_tradeoff::TradeoffPoint,
@@ -163,6 +163,9 @@ impl RigidRun {
             all.extend(reference::verdict(structure, record, &self.both, verdict));
             all.extend(reference::ill_conditioned(&self.report, verdict, judged));
         }
+        let peaks = parameters.peaks.map(|pair| pair.with_members.unwrap_or(pair.reference));
+        let whole = &self.case.excitation.record;
+        all.extend(peaks.and_then(|peaks| cut_at_largest(&peaks, whole, &self.job.record)));
         all.extend(self.vertical_left_out());
         all.extend(doubts(self.case.doubts()));
         all.extend(springs_findings(parameters));

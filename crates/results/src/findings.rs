@@ -61,6 +61,10 @@ pub enum Finding {
         largest_m: f64,
         left_m: f64,
     },
+    /// The part of the record that is taken ends when the displacement is largest.
+    CutAtLargest {
+        time_s: f64,
+    },
     /// It rocks on feet with friction, and ends beside its place.
     LeftAside {
         left_m: f64,

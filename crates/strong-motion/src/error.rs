@@ -89,7 +89,10 @@ pub enum RecordError {
     UnitsDiffer { file: String, file_units: Units, given: Units },
     #[error("{file}: the time step is not in the file; pass --dt SECONDS")]
     NoStep { file: String },
-    #[error("{file}: the unit of acceleration is not in the file; pass --units g, m/s2 or cm/s2")]
+    #[error(
+        "{file}: the unit of acceleration is not in the file; pass --units g, m/s2, \
+         cm/s2 or mm/s2"
+    )]
     NoUnits { file: String },
     #[error("{file}: the header speaks of {quantity}, not of acceleration; give the accelerogram")]
     NotAcceleration { file: String, quantity: &'static str },

@@ -15,6 +15,7 @@ impl Finding {
             | Self::NearMotions { .. }
             | Self::DeckJudged { .. }
             | Self::WithoutVertical { .. } => return None,
+            Self::CutAtLargest { .. } => "take more of it: --duration",
             Self::NeverLifts { .. } => "give a stronger record, or scale it: --scale",
             Self::Overturns { .. } => "scale the record down for the margin: --scale",
             Self::NoAnswer { .. } | Self::HistoryEndsEarly { ending: Ending::WorkBound, .. } => {
@@ -24,7 +25,7 @@ impl Finding {
             Self::ModelsDisagree { .. } => {
                 "vary the scale by 1 %, and judge by many records: tune validate"
             }
-            Self::PivotLeavesGround { .. } => "compare up to then",
+            Self::PivotLeavesGround { .. } | Self::FreeFlight { .. } => "compare up to then",
             Self::IllConditioned { .. } => "judge by many: tune init sweep",
             Self::ForetoldUpTo { later_forces, .. } | Self::SlidesOn { later_forces, .. }
                 if !later_forces.is_empty() =>
@@ -73,7 +74,6 @@ impl Finding {
             Self::Sliding { .. } => {
                 "give a shear key: feet do not slide here; --friction sets what the ground offers"
             }
-            Self::FreeFlight { .. } => "compare up to that time only",
             Self::TooStocky { .. } => "check height and width; rely on tests for such a body",
             Self::HistoryEndsEarly { .. } => {
                 "take stiffer springs, or rotational_inertia_kgm2 above 0.002 m R^2"

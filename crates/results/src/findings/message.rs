@@ -82,7 +82,7 @@ impl Finding {
     /// In one sentence.
     pub(crate) fn message(&self) -> String {
         match self {
-            Self::Slides { .. } | Self::LeftAside { .. } => self.slip(),
+            Self::Slides { .. } | Self::LeftAside { .. } | Self::CutAtLargest { .. } => self.slip(),
             Self::NeverLifts { .. }
             | Self::Stands { .. }
             | Self::Overturns { .. }
@@ -125,7 +125,7 @@ impl Finding {
         }
     }
 
-    /// How it slides.
+    /// How it slides, and that it goes on.
     fn slip(&self) -> String {
         match self {
             Self::Slides { friction, uplift_g, largest_m, left_m } => format!(
@@ -135,6 +135,10 @@ impl Finding {
                 significant(*friction, 3),
                 quantity(*largest_m, "m"),
                 quantity(*left_m, "m")
+            ),
+            Self::CutAtLargest { time_s } => format!(
+                "what is taken of the record ends at {}, when the displacement is largest",
+                s(*time_s)
             ),
             Self::LeftAside { left_m } => {
                 format!("it slips as well, and ends {} beside its place", quantity(*left_m, "m"))
@@ -299,7 +303,8 @@ impl Finding {
                 }
             }
             Self::RestitutionOutOfReach { asked, share, least, most } => format!(
-                "restitution {} is {} of equation 2's; springs reach {} to {} of it",
+                "restitution {} is {} of equation 2's; springs can be made for {} to {} of it, \
+                    the worse the further from 1",
                 significant(*asked, 4),
                 significant(*share, 3),
                 significant(*least, 3),

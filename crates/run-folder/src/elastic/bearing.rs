@@ -92,7 +92,7 @@ fn quantities(assembled: &Assembled, answer: &ElasticAnswer) -> Vec<ForceQuantit
         let [moment, fixed] = both(&|beam, end| beam.moments[end]);
         let body = rigid.map_or(Vec::new(), |rigid| rigid.moment.iter().map(|x| -x).collect());
         all.push(ForceQuantity {
-            name: ForceName::ColumnBaseMoment.words(),
+            name: "moment at base",
             unit: "N m",
             series: [moment, fixed, body],
         });
@@ -101,7 +101,7 @@ fn quantities(assembled: &Assembled, answer: &ElasticAnswer) -> Vec<ForceQuantit
     if matches!(&assembled.structure, ElasticStructure::Frame(frame) if frame.elements() == 1) {
         let [moment, fixed] = both(&|beam, end| beam.moments[1 - end]);
         all.push(ForceQuantity {
-            name: ForceName::ColumnTopMoment.words(),
+            name: "moment at top",
             unit: "N m",
             series: [moment, fixed, Vec::new()],
         });
