@@ -317,11 +317,7 @@ pub fn rigid_rocking(
     let record =
         if scale == 1.0 { record } else { Cow::Owned(record.scaled(scale).map_err(value_error)?) };
     let body = structure.body();
-    let options = RockingOptions {
-        restitution: Some(e),
-        vertical: record.vertical_accel(),
-        ..RockingOptions::default()
-    };
+    let options = RockingOptions::on(&record, e);
     let rocking = py.detach(|| housner::solve(&body, record.dt, &record.accel, &options));
     Ok(History::new(body, record.dt, rocking))
 }

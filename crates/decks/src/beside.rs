@@ -17,9 +17,7 @@ pub(crate) fn housner_range(
     samples: usize,
 ) -> Option<(f64, f64)> {
     let body = given.body();
-    let restitution = Some(parameters.restitution());
-    let vertical = record.vertical_accel();
-    let options = RockingOptions { restitution, vertical, ..Default::default() };
+    let options = RockingOptions::on(record, parameters.restitution());
     let rocking = housner::solve(&body, record.dt, &record.accel, &options);
     let ends = rocking.overturned().or(rocking.left_ground());
     if ends.is_some_and(|time| time < samples.saturating_sub(1) as f64 * record.dt) {

@@ -167,11 +167,7 @@ pub fn verify(
     };
     let body = parameters.structure.body::<f64>();
     let history = simulate(parameters, record);
-    let options = housner::RockingOptions {
-        restitution: Some(parameters.restitution()),
-        vertical: record.vertical_accel(),
-        ..Default::default()
-    };
+    let options = housner::RockingOptions::on(record, parameters.restitution());
     let rocking = housner::solve(&body, record.dt, &record.accel, &options);
     let housner = rocking.motion(&body);
 

@@ -147,8 +147,7 @@ impl Reference {
         limit: f64,
         most_work: u64,
     ) -> Result<Self, AnswerError> {
-        let ground =
-            GroundAcceleration { dt: record.dt, accel: &record.accel, vertical: record.up() };
+        let ground = GroundAcceleration::of(record);
         let q = assembled.upright()?;
         let history = assembled.rock(ground, &q, most_work);
         let foretold = assembled.foretold(ground, &q, &history, limit);
@@ -181,8 +180,7 @@ impl Reference {
         if self.foretold >= self.history.q.len() {
             return Ok(None);
         }
-        let ground =
-            GroundAcceleration { dt: record.dt, accel: &record.accel, vertical: record.up() };
+        let ground = GroundAcceleration::of(record);
         let followed = assembled.grown(ground, &assembled.upright()?, &self.history, FOLLOWED);
         Ok((followed > self.followed).then(|| Self { followed, ..self.clone() }))
     }
@@ -193,8 +191,7 @@ impl Reference {
     /// # Errors
     /// The structure does not stand.
     pub fn tried(&self, assembled: &Assembled, record: &Record) -> Result<usize, AnswerError> {
-        let ground =
-            GroundAcceleration { dt: record.dt, accel: &record.accel, vertical: record.up() };
+        let ground = GroundAcceleration::of(record);
         Ok(assembled.foretold(ground, &assembled.upright()?, &self.history, TRIED))
     }
 

@@ -38,21 +38,6 @@ use dynamics::{
 use rocking::motion::TimedPeak;
 use strong_motion::Record;
 
-/// A peak with its sign, and when it is (s).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ForcePeak {
-    /// [N, N m]
-    pub value: f64,
-    /// (s)
-    pub time_s: f64,
-}
-
-impl From<TimedPeak> for ForcePeak {
-    fn from(peak: TimedPeak) -> Self {
-        Self { value: peak.value, time_s: peak.time }
-    }
-}
-
 /// A force, and by how much it changes with what is not the structure's; changes are shares of it,
 /// measured over `over_s`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,9 +70,9 @@ pub struct StructureForce {
     /// Of a force that is larger after what can be foretold: what it is, and holds, up to then.
     pub held: Option<HeldForce>,
     /// The structure held to the ground, below the same cutoff.
-    pub fixed: Option<ForcePeak>,
+    pub fixed: Option<TimedPeak>,
     /// The rigid body by Housner's equation, between impacts.
-    pub rigid: Option<ForcePeak>,
+    pub rigid: Option<TimedPeak>,
 }
 
 impl StructureForce {
@@ -177,7 +162,7 @@ impl StructureForces {
                 Some(StructureForce {
                     kind,
                     value: holds.then_some(found),
-                    time_s: peak.filtered.time_s,
+                    time_s: peak.filtered.time,
                     holds,
                     together: peak.together,
                     above_base_m: peak.above_base_m,
@@ -260,17 +245,17 @@ fn parts_below(cutoff: Option<&Cutoff>, dt: f64) -> usize {
 }
 
 /// The rigid body's: its shear across the column is its moment over the column's length.
-fn rigid_peak(rigid: &RigidForces, kind: ForceName, dt: f64) -> Option<ForcePeak> {
+fn rigid_peak(rigid: &RigidForces, kind: ForceName, dt: f64) -> Option<TimedPeak> {
     let series = match kind {
         ForceName::ColumnShear => &rigid.shear,
         ForceName::ColumnBaseMoment => &rigid.moment,
         ForceName::Axial => &rigid.axial,
         _ => return None,
     };
-    let peak = TimedPeak::of(dt, series).map(ForcePeak::from)?;
+    let peak = TimedPeak::of(dt, series)?;
     // on the end of the column, as in the frame
     Some(if kind == ForceName::ColumnBaseMoment {
-        ForcePeak { value: -peak.value, ..peak }
+        TimedPeak { value: -peak.value, ..peak }
     } else {
         peak
     })

@@ -155,7 +155,7 @@ fn on_rigid_ground(
     record: &Record,
     (scale, most_work): (f64, u64),
 ) -> Near {
-    let ground = GroundAcceleration { dt: record.dt, accel: &record.accel, vertical: record.up() };
+    let ground = GroundAcceleration::of(record);
     let options = ReferenceOptions { scale, most_work, ..ReferenceOptions::default() };
     let history = rock(&assembled.frame, ground, (q, &DVector::zeros(q.len())), &options);
     match history.outcome {

@@ -53,6 +53,7 @@ pub use hold::{Configuration, CornerContact, HeldMotion};
 pub use rest::{RestError, at_rest};
 
 use super::Mechanics;
+use strong_motion::Record;
 
 /// The ground's acceleration: at t = i dt, linear between samples, zero after the last (m/s2).
 #[derive(Clone, Copy, Debug)]
@@ -66,6 +67,18 @@ pub struct GroundAcceleration<'a> {
 }
 
 impl<'a> GroundAcceleration<'a> {
+    /// Of a record.
+    pub fn of(record: &'a Record) -> Self {
+        Self { dt: record.dt, accel: &record.accel, vertical: record.up() }
+    }
+
+    /// Its first samples.
+    #[must_use]
+    pub fn first(self, samples: usize) -> Self {
+        let part = |of: &'a [f64]| &of[..samples.min(of.len())];
+        Self { accel: part(self.accel), vertical: part(self.vertical), ..self }
+    }
+
     /// Horizontal motion alone.
     pub fn horizontal(dt: f64, accel: &'a [f64]) -> Self {
         Self { dt, accel, vertical: &[] }

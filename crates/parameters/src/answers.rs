@@ -45,8 +45,8 @@ pub fn both(
     members: &Members,
     record: &Record,
 ) -> ModelComparison {
-    let level = housner::RockingOptions { restitution: Some(restitution), ..Default::default() };
-    let options = housner::RockingOptions { vertical: record.vertical_accel(), ..level.clone() };
+    let options = housner::RockingOptions::on(record, restitution);
+    let level = housner::RockingOptions { vertical: None, ..options.clone() };
     let rocking = housner::solve(body, record.dt, &record.accel, &options);
     let level =
         record.vertical.as_ref().map(|_| housner::solve(body, record.dt, &record.accel, &level));
@@ -83,8 +83,7 @@ pub fn with_members(
 pub fn compare(parameters: &Parameters, record: &Record) -> (ModelComparison, Verdict) {
     let (body, e) = (parameters.structure.body(), parameters.restitution());
     let both = both(&body, e, &parameters.chains(), &parameters.members(), record);
-    let vertical = record.vertical_accel();
-    let options = housner::RockingOptions { restitution: Some(e), vertical, ..Default::default() };
+    let options = housner::RockingOptions::on(record, e);
     let verdict = both.verdict(
         &body,
         record.dt,

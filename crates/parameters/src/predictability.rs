@@ -123,10 +123,9 @@ pub fn until_flight(structure: &Structure, record: &Record) -> Option<Foretold> 
 
 /// Up to when the motion of Housner's body on a record can be predicted, if not to its end (s).
 pub fn predictable_to(parameters: &Parameters, record: &Record) -> Option<f64> {
-    let (body, restitution) = (parameters.structure.body(), Some(parameters.restitution()));
-    let vertical = record.vertical_accel();
-    let options = RockingOptions { restitution, vertical, ..Default::default() };
-    Conditioning::new(&body, record.dt, &record.accel, &options).predictable_to()
+    let options = RockingOptions::on(record, parameters.restitution());
+    Conditioning::new(&parameters.structure.body(), record.dt, &record.accel, &options)
+        .predictable_to()
 }
 
 /// Our own history of a deck's model; `parameters` with inertia.

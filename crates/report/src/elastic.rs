@@ -145,6 +145,7 @@ impl ElasticParts<'_> {
         let asked = self.case.program.is_some();
         all.extend(parameters.program.iter().filter_map(|row| super::program::lost(row, asked)));
         all.extend(parameters.design_forces.iter().filter_map(|forces| forces.held_in_part()));
+        all.extend(parameters.design_forces.iter().filter_map(|forces| forces.of_cutoff()));
         all.extend(parameters.design_forces.iter().flat_map(|forces| forces.withheld()));
         all.extend(judged::elastic(self.assembled, &self.answer.histories, self.record));
         all

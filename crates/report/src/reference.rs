@@ -51,12 +51,7 @@ impl HousnerReport {
         rocking: &Rocking<f64>,
         friction: f64,
     ) -> Self {
-        let vertical = record.vertical_accel();
-        let options = housner::RockingOptions {
-            restitution: Some(restitution),
-            vertical,
-            ..Default::default()
-        };
+        let options = housner::RockingOptions::on(record, restitution);
         let conditioning = Conditioning::new(body, record.dt, &record.accel, &options);
         let lifted = rocking.outcome != housner::RockingOutcome::NeverMoved;
         Self {

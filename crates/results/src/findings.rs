@@ -228,6 +228,11 @@ pub enum Finding {
         over_s: f64,
         changes: Vec<PeakChange>,
     },
+    /// Forces below a frequency, without, that are much larger below twice it, with.
+    ForcesOfCutoff {
+        below_hz: f64,
+        changes: Vec<PeakChange>,
+    },
     /// Largest forces that the structure bears before it moves, with what they are made of.
     ForcesAtRest {
         forces: Vec<ForceName>,

@@ -10,7 +10,7 @@ use super::{Finding, ForceName, PeakChange};
 const RECORD_ADDS: f64 = 0.01;
 
 /// A largest force, and whether it is the structure's.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct DesignForce {
     /// Largest magnitude, with its sign: axial forces are positive in tension (N or N m). None
     /// where it does not hold.
@@ -66,23 +66,7 @@ impl DesignForce {
     /// A force that was measured to change by this share.
     pub fn measured(value: f64, time_s: f64, change: Option<f64>) -> Self {
         let holds = change.is_some_and(|change| change < MOST_CHANGE);
-        Self {
-            value: Some(value).filter(|_| holds),
-            time_s,
-            holds,
-            change,
-            raw: None,
-            fixed: None,
-            rigid: None,
-            at_rest: None,
-            together: None,
-            above_base_m: None,
-            others: None,
-            over_s: None,
-            whole_record: None,
-            held: None,
-            predictable: None,
-        }
+        Self { value: Some(value).filter(|_| holds), time_s, holds, change, ..Self::default() }
     }
 
     /// Whether the largest is the one at rest.
@@ -119,6 +103,9 @@ impl DesignForce {
         }
     }
 }
+
+/// A force below twice the frequency, over the one that is given, from which that is said.
+const MOST_BY_CUTOFF: f64 = 1.25;
 
 /// The forces; what does not apply to a structure is absent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -211,6 +198,23 @@ impl DesignForces {
         };
         let (over, changes): (Vec<f64>, Vec<PeakChange>) = self.all().filter_map(part).unzip();
         Some(Finding::ForcesHeldInPart { over_s: over.into_iter().reduce(f64::min)?, changes })
+    }
+
+    /// A finding of those that are much larger below twice the frequency they are given below.
+    pub fn of_cutoff(&self) -> Option<Finding> {
+        let below_hz = self.below_hz?;
+        let more = |(name, force): (ForceName, DesignForce)| {
+            let (without, with) = (force.value?.abs(), force.others?.doubled_cutoff?.abs());
+            let (quantity, unit) = (name.words().to_string(), name.unit().to_string());
+            (with > MOST_BY_CUTOFF * without).then_some(PeakChange {
+                quantity,
+                unit,
+                without,
+                with,
+            })
+        };
+        let changes: Vec<PeakChange> = self.all().filter_map(more).collect();
+        (!changes.is_empty()).then_some(Finding::ForcesOfCutoff { below_hz, changes })
     }
 
     /// A finding of those that are largest before anything moves.

@@ -35,6 +35,7 @@ use crate::motion::{Motion, samples_until};
 use crate::scalar::{GRAVITY, Scalar, real};
 use crate::structure::Body;
 use std::sync::Arc;
+use strong_motion::Record;
 
 /// How to solve.
 #[derive(Clone, Debug)]
@@ -64,6 +65,14 @@ impl<S: Scalar> Default for RockingOptions<S> {
             initial: None,
             max_work: 2_000_000,
         }
+    }
+}
+
+impl RockingOptions<f64> {
+    /// On a record, with its vertical component, and this restitution.
+    pub fn on(record: &Record, restitution: f64) -> Self {
+        let (vertical, restitution) = (record.vertical_accel(), Some(restitution));
+        Self { vertical, restitution, ..Self::default() }
     }
 }
 

@@ -105,11 +105,7 @@ impl Job {
         }
         within_reach(&record)?;
         let body = case.structure.body::<f64>();
-        let options = housner::RockingOptions {
-            restitution: Some(case.restitution),
-            vertical: record.vertical_accel(),
-            ..Default::default()
-        };
+        let options = housner::RockingOptions::on(&record, case.restitution);
         let rocking = housner::solve(&body, record.dt, &record.accel, &options);
         let housner = rocking.motion(&body);
         let suites = Suites::within(&body, case.restitution, Some(&record), effort);

@@ -1,6 +1,6 @@
 //! The same motion with the elements doubled and on other springs, and peaks of forces.
 
-use super::{Cutoff, ForceName, ForcePeak, cutoff::SOLE_HZ, parts};
+use super::{Cutoff, ForceName, cutoff::SOLE_HZ, parts};
 use crate::{
     assembled::Assembled,
     design_forces::ForcesTogether,
@@ -87,7 +87,7 @@ pub(super) fn scaled(springs: &[Springs<Chain>], factor: f64) -> Vec<Springs<Cha
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PeakOfForce {
     kind: ForceName,
-    pub filtered: ForcePeak,
+    pub filtered: TimedPeak,
     pub raw: f64,
     pub cutoff_hz: Option<f64>,
     /// What the column's base bears at that time.
@@ -121,7 +121,7 @@ impl ForcePeaks {
             let most = |until: f64| fine.members.largest(k, until);
             let peak = most(over).zip(most(f64::INFINITY)).map(|(found, all)| PeakOfForce {
                 kind,
-                filtered: ForcePeak { value: found.forces[k], time_s: found.time },
+                filtered: TimedPeak { value: found.forces[k], time: found.time },
                 raw: all.forces[k],
                 cutoff_hz: None,
                 together: None,
@@ -151,10 +151,10 @@ impl Series {
     }
 
     /// The largest of the samples that count, in the middle of its part.
-    fn largest(&self, smooth: &[f64]) -> Option<ForcePeak> {
+    fn largest(&self, smooth: &[f64]) -> Option<TimedPeak> {
         let kept = (self.over_s / self.part_s).round().min(1e15) as usize;
         let peak = TimedPeak::of(self.part_s, &smooth[..kept.min(smooth.len())])?;
-        Some(ForcePeak { value: peak.value, time_s: peak.time + 0.5 * self.part_s })
+        Some(TimedPeak { value: peak.value, time: peak.time + 0.5 * self.part_s })
     }
 
     /// Of one force, whose series below its cutoff is `smooth`.
@@ -219,7 +219,7 @@ impl Series {
             .chain(at_top);
         let peaks = peaks.chain(tension);
         let together = |peak: PeakOfForce| {
-            let at = (peak.filtered.time_s / self.part_s - 0.5).round().max(0.0) as usize;
+            let at = (peak.filtered.time / self.part_s - 0.5).round().max(0.0) as usize;
             let [column_shear_n, axial_n, column_base_moment_nm] =
                 [0, 1, 2].map(|k| base[k][at.min(base[k].len() - 1)]);
             PeakOfForce {
@@ -245,7 +245,7 @@ fn of_massless(column: &RunningPeaks<4>, over_s: f64) -> Vec<PeakOfForce> {
             let [column_shear_n, axial_n, column_base_moment_nm, _] = forces;
             Some(PeakOfForce {
                 kind,
-                filtered: ForcePeak { value: forces[k], time_s: time },
+                filtered: TimedPeak { value: forces[k], time },
                 raw: raw.map_or(forces[k], |step| step.forces[k]),
                 cutoff_hz: None,
                 together: Some(ForcesTogether {

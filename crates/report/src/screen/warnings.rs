@@ -20,7 +20,9 @@ fn urgency(finding: &Finding) -> usize {
         Finding::SearchCut { .. } | Finding::IllConditioned { .. } => 0,
         Finding::Sliding { .. } => 1,
         Finding::VerticalLeftOut { .. } => 2,
-        Finding::ForcesHeldInPart { .. } | Finding::ForceWithheld { .. } => 4,
+        Finding::ForcesHeldInPart { .. }
+        | Finding::ForcesOfCutoff { .. }
+        | Finding::ForceWithheld { .. } => 4,
         Finding::FeetApart { .. } => DECK,
         _ => 5,
     }

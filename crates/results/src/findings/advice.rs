@@ -63,14 +63,12 @@ impl Finding {
             | Self::ProgramStepForAccuracy { .. }
             | Self::ProgramRestitution { .. } => return self.remedy_of_steps(),
             Self::LandingsUnfinished { .. } => "allow other springs: --max-hz, --accuracy",
-            Self::ForceWithheld { housner: Some(_), .. } => {
-                "design for the larger, or take stiffer springs: --accuracy"
-            }
-            Self::ForceWithheld { .. } => "refine: --accuracy, or, of columns with mass, elements",
+            Self::ForceWithheld { .. }
+            | Self::ForcesHeldInPart { .. }
+            | Self::ForcesOfCutoff { .. } => return self.remedy_of_forces(),
             Self::SearchCut { .. }
             | Self::HistoriesUnfinished { .. }
             | Self::NearMotionsLeftOut { .. } => return self.remedy_of_search(),
-            Self::ForcesHeldInPart { .. } => "design for the larger, and by several records",
             Self::Sliding { .. } => {
                 "give a shear key: feet do not slide here; --friction sets what the ground offers"
             }
@@ -82,6 +80,20 @@ impl Finding {
             Self::SmallestSteps { .. } => "compare with OpenSees: tune verify",
             Self::VerticalLeftOut { .. } => "take it: --vertical auto",
             Self::Doubt { remedy, .. } => return Some(remedy.clone()),
+        };
+        Some(text.into())
+    }
+
+    /// Of forces that do not hold, or not of all.
+    fn remedy_of_forces(&self) -> Option<String> {
+        let text = match self {
+            Self::ForceWithheld { housner: Some(_), .. } => {
+                "design for the larger, or take stiffer springs: --accuracy"
+            }
+            Self::ForceWithheld { .. } => "refine: --accuracy, or, of columns with mass, elements",
+            Self::ForcesHeldInPart { .. } => "design for the larger, and by several records",
+            Self::ForcesOfCutoff { .. } => "design brittle parts for the larger",
+            _ => return None,
         };
         Some(text.into())
     }

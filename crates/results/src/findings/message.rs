@@ -103,6 +103,7 @@ impl Finding {
             | Self::MembersBeside { .. } => self.springs(),
             Self::ForceWithheld { .. }
             | Self::ForcesHeldInPart { .. }
+            | Self::ForcesOfCutoff { .. }
             | Self::ForcesAtRest { .. } => self.forces(),
             Self::ProgramStepTooLong { .. }
             | Self::ProgramLoses { .. }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::{DesignForce, DesignForces, OtherForces};
 
 #[test]
 fn a_finding_is_filed_with_its_quantities_and_read_back() {
@@ -45,6 +46,28 @@ fn a_force_that_holds_for_a_part_of_the_record_is_told_with_what_the_whole_has()
         "axial force is of the first 49.4 s alone: over the whole record it would be 13.6 MN, and \
             change by 5 % or more with springs or mesh"
     );
+}
+
+#[test]
+fn forces_that_hang_on_the_frequency_are_told() {
+    let force = |value: f64, twice: f64| DesignForce {
+        value: Some(value),
+        others: Some(OtherForces { doubled_cutoff: Some(twice), ..OtherForces::default() }),
+        ..DesignForce::default()
+    };
+    let forces = DesignForces {
+        below_hz: Some(31.8),
+        column_shear_n: Some(force(3.72e6, -5.22e6)),
+        axial_n: Some(force(-8.1e6, -8.3e6)),
+        ..DesignForces::default()
+    };
+    let found = forces.of_cutoff().unwrap();
+    assert_eq!(found.weight(), Weight::Warning);
+    assert_eq!(
+        found.message(),
+        "column shear is of what is slower than 31.8 Hz: below twice that it is 5.22 MN"
+    );
+    assert_eq!(DesignForces { column_shear_n: None, ..forces }.of_cutoff(), None);
 }
 
 #[test]

@@ -113,12 +113,11 @@ impl ElasticTrial {
     /// From rest through a record, its work counted; unfit once it is stopped from outside.
     pub fn shaken(model: &Assembled, record: &Record, effort: &Effort) -> ElasticTrialOutcome {
         let Ok(q) = model.upright() else { return ElasticTrialOutcome::Unfit };
-        let (accel, up) = (&record.accel, record.up());
-        let mut samples = accel.len().div_ceil(PARTS);
+        let whole = GroundAcceleration::of(record);
+        let mut samples = record.len().div_ceil(PARTS);
         let mut shorter: Option<(usize, ElasticRocking, usize)> = None;
         loop {
-            let (accel, vertical) = (&accel[..samples], &up[..samples.min(up.len())]);
-            let ground = GroundAcceleration { dt: record.dt, accel, vertical };
+            let ground = whole.first(samples);
             if effort.stopped() {
                 return ElasticTrialOutcome::Unfit;
             }
@@ -127,12 +126,7 @@ impl ElasticTrial {
             if out_of_work(&history) {
                 // the part before is there
                 let before = shorter.map(|(samples, history, foretold)| {
-                    let ground = GroundAcceleration {
-                        dt: record.dt,
-                        accel: &record.accel[..samples],
-                        vertical: &up[..samples.min(up.len())],
-                    };
-                    Self::found(model, ground, None, &history, || foretold)
+                    Self::found(model, whole.first(samples), None, &history, || foretold)
                 });
                 let before =
                     before.filter(|found| matches!(found, ElasticTrialOutcome::ReferenceMotion(_)));
@@ -140,13 +134,12 @@ impl ElasticTrial {
             }
             let foretold = model.foretold(ground, &q, &history, TRIED);
             // what comes after it need not be known
-            if foretold < samples && history.landings().next().is_some()
-                || samples == record.accel.len()
+            if foretold < samples && history.landings().next().is_some() || samples == record.len()
             {
                 return Self::found(model, ground, None, &history, || foretold);
             }
             shorter = Some((samples, history, foretold));
-            samples = (2 * samples).min(record.accel.len());
+            samples = (2 * samples).min(record.len());
         }
     }
 
@@ -156,8 +149,7 @@ impl ElasticTrial {
         record: &Record,
         reference: &Reference,
     ) -> ElasticTrialOutcome {
-        let ground =
-            GroundAcceleration { dt: record.dt, accel: &record.accel, vertical: record.up() };
+        let ground = GroundAcceleration::of(record);
         Self::found(model, ground, None, &reference.history, || reference.followed)
     }
 

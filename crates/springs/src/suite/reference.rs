@@ -102,12 +102,7 @@ impl ReferenceMotion {
         record: Record,
         wanted: WantedMotion,
     ) -> Option<Self> {
-        let vertical = record.vertical_accel();
-        let options = RockingOptions {
-            restitution: Some(restitution),
-            vertical,
-            ..RockingOptions::default()
-        };
+        let options = RockingOptions::on(&record, restitution);
         let rocking = housner::solve(body, record.dt, &record.accel, &options);
         let overturned = rocking.overturned().filter(|_| wanted.may_topple());
         let rocks = rocking.outcome == housner::RockingOutcome::Rocked || overturned.is_some();

@@ -3,6 +3,15 @@
 use super::{Finding, PeakChange, joined, listed};
 use files::message::{percent, quantity, significant};
 
+/// Forces that change, what verb and pronoun they take, and what they become.
+fn told(changes: &[PeakChange]) -> [String; 4] {
+    let all =
+        |words: fn(&PeakChange) -> String| joined(&changes.iter().map(words).collect::<Vec<_>>());
+    let [are, they] = if changes.len() == 1 { ["is", "it"] } else { ["are", "they"] };
+    let values = all(|change| quantity(change.with, &change.unit));
+    [all(|change| change.quantity.clone()), are.into(), they.into(), values]
+}
+
 impl Finding {
     /// Which design forces hold.
     pub(super) fn forces(&self) -> String {
@@ -29,17 +38,19 @@ impl Finding {
                 format!("{words} is withheld: {by} with springs or mesh")
             }
             Self::ForcesHeldInPart { over_s, changes } => {
-                let all = |words: fn(&PeakChange) -> String| {
-                    joined(&changes.iter().map(words).collect::<Vec<_>>())
-                };
+                let [names, are, they, values] = told(changes);
                 format!(
-                    "{} {} of the first {} s alone: over the whole record {} would be {}, and \
-                        change by 5 % or more with springs or mesh",
-                    all(|change| change.quantity.clone()),
-                    if changes.len() == 1 { "is" } else { "are" },
-                    significant(*over_s, 3),
-                    if changes.len() == 1 { "it" } else { "they" },
-                    all(|change| quantity(change.with, &change.unit))
+                    "{names} {are} of the first {} s alone: over the whole record {they} would be \
+                        {values}, and change by 5 % or more with springs or mesh",
+                    significant(*over_s, 3)
+                )
+            }
+            Self::ForcesOfCutoff { below_hz, changes } => {
+                let [names, are, they, values] = told(changes);
+                format!(
+                    "{names} {are} of what is slower than {} Hz: below twice that {they} {are} \
+                        {values}",
+                    significant(*below_hz, 3)
                 )
             }
             Self::ForcesAtRest { forces } => format!(
