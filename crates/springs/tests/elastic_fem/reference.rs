@@ -298,6 +298,8 @@ fn a_corner_that_carries_nothing_slides_as_on_rigid_ground() {
 
 /// A footing of a portal that has left the ground altogether lands so flat that stopping it
 /// sideways would throw it up: it slides on, on springs too, and they follow the reference beyond.
+/// Up to there springs err the less the stiffer they are. The landing itself, in which the ground's
+/// push changes while they give, leaves 5e-4, whatever their stiffness and both models' steps.
 #[test]
 fn a_corner_that_lands_flat_slides_on_springs_as_on_rigid_ground() {
     let structure: ElasticStructure = toml::from_str(
@@ -324,12 +326,17 @@ fn a_corner_that_lands_flat_slides_on_springs_as_on_rigid_ground() {
         let history = ElasticAnalysis::new(&model.frame, &springs.corners, start, 0.01, &accel)
             .simulate()
             .unwrap();
-        sway_errors(&of_reference, &model.sways(history.q.iter().map(Vec::as_slice)), accel.len())
+        let sways = model.sways(history.q.iter().map(Vec::as_slice));
+        let before = (first_sliding_landing_s / 0.01) as usize;
+        [before, accel.len()].map(|samples| sway_errors(&of_reference, &sways, samples))
     };
-    // from there on they stay 5e-4 apart, however stiff
-    let [soft, stiff] = [1e-4, 1e-7].map(error);
+    let [[soft_before, soft], [stiff_before, stiff]] = [1e-5, 1e-7].map(error);
+    for k in 0..2 {
+        assert!(stiff_before[k] < 0.2 * soft_before[k], "{stiff_before:?} {soft_before:?}");
+        assert!(stiff[k] < soft[k], "{stiff:?} {soft:?}");
+    }
     assert!(soft[0] < 2e-3 && soft[1] < 5e-3, "{soft:?}");
-    assert!(stiff[0] < 0.5 * soft[0] && stiff[1] < 0.5 * soft[1], "{stiff:?} {soft:?}");
+    assert!(stiff[0] < 1e-3 && stiff[1] < 2e-3, "{stiff:?}");
 }
 
 /// A touch that a long step suspects beyond its end is none of its events: a history on these
