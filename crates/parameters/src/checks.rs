@@ -98,3 +98,28 @@ impl Parameters {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use springs::suite::{Accuracy, PeakAccuracy, Statistic};
+    use validation::PeakErrors;
+
+    /// JSON has no infinity: errors of springs that lose their motions stand as null.
+    #[test]
+    fn what_is_lost_is_read_back_as_lost() {
+        let lost = Some(Statistic { value: f64::INFINITY, count: 24 });
+        let written = PeakAccuracy {
+            largest: Accuracy {
+                record: Some(f64::INFINITY),
+                synthetic_median: lost,
+                ..Accuracy::default()
+            },
+            record: Some(PeakErrors::LOST),
+            ..PeakAccuracy::default()
+        };
+        let text = serde_json::to_string(&written).unwrap();
+        let read: PeakAccuracy = serde_json::from_str(&text).unwrap();
+        assert_eq!(read, written, "{text}");
+        assert!(!read.largest.reaches(1.0));
+    }
+}

@@ -134,3 +134,25 @@ fn much_error_on_earthquakes_is_told_of_springs_that_are_of_use() {
     assert_eq!(told(with_earthquakes(row(0.05, Some(0.01)), 0.08)), None);
     assert_eq!(told(with_earthquakes(row(0.2, Some(0.01)), 0.3)), None);
 }
+
+/// What a user may have edited is checked as a case's section is.
+#[test]
+fn a_program_that_cannot_step_so_is_refused() {
+    assert!(row(0.02, None).check("p.json").is_ok());
+    let refused = |edit: fn(&mut ProgramRow<()>)| {
+        let mut edited = row(0.02, None);
+        edit(&mut edited);
+        edited.check("p.json").unwrap_err().to_string()
+    };
+    let messages = [
+        refused(|row| row.step_s = 0.0),
+        refused(|row| row.step_s = -1e-3),
+        refused(|row| row.name = Some("sap200".into())),
+        refused(|row| row.integrator = "hht:0.3".into()),
+        refused(|row| row.substeps = 0),
+    ];
+    for (message, key) in messages.iter().zip(["step_s", "step_s", "for", "integrator", "substeps"])
+    {
+        assert!(message.starts_with(&format!("p.json: program.{key} is ")), "{message}");
+    }
+}
