@@ -92,16 +92,21 @@ impl ElasticParts<'_> {
         let forces = &self.answer.histories.reference.history.forces;
         let sizes: Vec<usize> =
             frame.places().chunk_by(|a, b| a.shares_node(b)).map(<[_]>::len).collect();
+        // (H, N) of each footing
+        let footings = |corners: &Vec<[f64; 2]>| -> Vec<[f64; 2]> {
+            let mut rest = corners.as_slice();
+            let mut one = |size: &usize| {
+                let (own, others) = rest.split_at(*size);
+                rest = others;
+                [0, 1].map(|k| own.iter().map(|force| force[k]).sum())
+            };
+            sizes.iter().map(&mut one).collect()
+        };
+        // what each bears at rest, its tendon's tension included
+        let at_rest = forces.first().map(footings).unwrap_or_default();
         let mut most = (TimedPeak::default(), 0.0);
         for (i, corners) in forces.iter().enumerate() {
-            let mut first = 0;
-            for size in &sizes {
-                let sum =
-                    |corners: &[[f64; 2]], k: usize| corners.iter().map(|f| f[k]).sum::<f64>();
-                let [h, n] = [0, 1].map(|k| sum(&corners[first..first + size], k));
-                // what it bears at rest, its tendon's tension included
-                let at_rest = sum(&forces[0][first..first + size], 1);
-                first += size;
+            for ([h, n], [_, at_rest]) in footings(corners).into_iter().zip(&at_rest) {
                 let needed = (h / n).abs();
                 if n > LEAST_PRESS * at_rest && needed > most.0.value {
                     let time = i as f64 * self.record.dt;
