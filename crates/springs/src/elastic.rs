@@ -21,8 +21,6 @@ pub mod referred;
 pub mod suite;
 pub mod trial;
 
-use std::collections::BTreeMap;
-
 pub use error::ElasticTuneError;
 
 use self::{
@@ -31,7 +29,7 @@ use self::{
     suite::{ElasticSuite, Measured},
     trial::ElasticTrial,
 };
-use super::ladder::{DECADE, seek};
+use super::ladder::{DECADE, Ladder, best};
 use cases::{ACCURACY, Asked, PEAKS, Yardstick};
 use dynamics::{
     effort::{CutBy, Effort},
@@ -143,7 +141,7 @@ pub fn tune_within(
     checked(asked)?;
     let standing = stand(model).ok_or(ElasticTuneError::Falls)?;
     let landing = landing_speed(&model.structure);
-    let rungs = Rungs::new(asked.error, most_hz, |i| omega_n_hz(&standing, give(i)))?;
+    let rungs = ladder(asked.error, most_hz, |i| omega_n_hz(&standing, give(i)))?;
     let (record, reference) = record.unzip();
     let suite =
         ElasticSuite::new(model.clone(), record.zip(reference.as_ref()), effort).by(asked.by);
@@ -152,7 +150,7 @@ pub fn tune_within(
     let of = |i: i64, share: f64| springs(&standing, give(i), landing, share);
     let measure =
         |springs: &CornerSprings| suite.measure_within(springs, (Control::search(), effort));
-    let chosen = rungs.search(asked, of, &measure, effort, progress);
+    let chosen = search(rungs, asked, of, &measure, effort, progress);
     let mut not_done = Vec::new();
     if effort.cut().is_some() {
         not_done.push(NotDone::Stiffnesses);
@@ -166,13 +164,13 @@ pub fn tune_within(
         }
         let record = ElasticTrial::beside(model, record, &reference).trial();
         let suite = ElasticSuite { record, ..suite };
-        let stiffer = Rungs {
+        let stiffer = Ladder {
             ends: (chosen.rung, rungs.ends.1),
             guess: (chosen.rung + STIFFER).min(rungs.ends.1),
         };
         // the record decides; all else is measured once
         let alone = |springs: &CornerSprings| suite.measure_record(springs, effort);
-        let found = stiffer.search(asked, of, &alone, effort, progress);
+        let found = search(stiffer, asked, of, &alone, effort, progress);
         if effort.stops() {
             not_done.push(NotDone::Further);
             return None;
@@ -233,98 +231,67 @@ struct ElasticRung {
     judged: usize,
 }
 
-/// The ladder of springs that may be chosen.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Rungs {
-    /// Softest and stiffest.
-    ends: (i64, i64),
-    /// Where the search begins.
-    guess: i64,
+/// The rungs for an accuracy, up to a frequency; `hz` is that of a rung (Hz).
+fn ladder(
+    accuracy: f64,
+    most_hz: Option<f64>,
+    hz: impl Fn(i64) -> f64,
+) -> Result<Ladder, ElasticTuneError> {
+    let (softest, stiffest) = RUNGS;
+    let softest_hz = hz(softest);
+    if let Some(most_hz) = most_hz.filter(|hz| *hz < softest_hz) {
+        return Err(ElasticTuneError::TooSoft { most_hz, softest_hz });
+    }
+    // Omega_n^2 goes as 1/give
+    let allowed = |hz: f64| softest + (2.0 * DECADE * (hz / softest_hz).log10()).floor() as i64;
+    let stiffest = most_hz.map_or(stiffest, |hz| allowed(hz).min(stiffest));
+    let guess = (-DECADE * (BEGIN * accuracy).log10()).round() as i64;
+    Ok(Ladder { ends: (softest, stiffest), guess: guess.clamp(softest, stiffest) })
 }
 
-impl Rungs {
-    /// For an accuracy, up to a frequency; `hz` is that of a rung (Hz).
-    fn new(
-        accuracy: f64,
-        most_hz: Option<f64>,
-        hz: impl Fn(i64) -> f64,
-    ) -> Result<Self, ElasticTuneError> {
-        let (softest, stiffest) = RUNGS;
-        let softest_hz = hz(softest);
-        if let Some(most_hz) = most_hz.filter(|hz| *hz < softest_hz) {
-            return Err(ElasticTuneError::TooSoft { most_hz, softest_hz });
+/// The softest that hold what is asked for, by what is measured of them; `springs` of a rung, at a
+/// share of the balanced K.
+fn search(
+    ladder: Ladder,
+    asked: Asked,
+    springs: impl Fn(i64, f64) -> CornerSprings,
+    measure: &dyn Fn(&CornerSprings) -> Measured,
+    effort: &Effort,
+    progress: &dyn Fn(usize, f64),
+) -> ElasticRung {
+    let allowed = asked.times(MARGIN);
+    let over = |(_, measured): &(CornerSprings, Measured)| measured.over(allowed);
+    // where springs at the balance of K do not hold, ones with less rebound may: a corner that
+    // leaves as soon as it has landed keeps it
+    let judged = |i: i64| {
+        let of = |share: f64| {
+            let springs = springs(i, share);
+            let measured = measure(&springs);
+            (springs, measured)
+        };
+        let balanced = of(1.0);
+        if over(&balanced).unwrap_or(0.0) <= 1.0 {
+            return balanced;
         }
-        // Omega_n^2 goes as 1/give
-        let allowed = |hz: f64| softest + (2.0 * DECADE * (hz / softest_hz).log10()).floor() as i64;
-        let stiffest = most_hz.map_or(stiffest, |hz| allowed(hz).min(stiffest));
-        let guess = (-DECADE * (BEGIN * accuracy).log10()).round() as i64;
-        Ok(Self { ends: (softest, stiffest), guess: guess.clamp(softest, stiffest) })
-    }
-
-    /// The softest that hold what is asked for, by what is measured of them; `springs` of a rung,
-    /// at a share of the balanced K.
-    fn search(
-        &self,
-        asked: Asked,
-        springs: impl Fn(i64, f64) -> CornerSprings,
-        measure: &dyn Fn(&CornerSprings) -> Measured,
-        effort: &Effort,
-        progress: &dyn Fn(usize, f64),
-    ) -> ElasticRung {
-        let allowed = asked.times(MARGIN);
-        // where springs at the balance of K do not hold, ones with less rebound may: a corner that
-        // leaves as soon as it has landed keeps it
-        let judged = |i: i64| {
-            let of = |share: f64| {
-                let springs = springs(i, share);
-                let measured = measure(&springs);
-                (springs, measured)
-            };
-            let over =
-                |(_, measured): &(CornerSprings, Measured)| measured.over(allowed).unwrap_or(0.0);
-            let balanced = of(1.0);
-            if over(&balanced) <= 1.0 {
-                return balanced;
-            }
-            let quieter = of(QUIETER);
-            if over(&quieter) < over(&balanced) { quieter } else { balanced }
-        };
-        let mut seen: BTreeMap<i64, (CornerSprings, Measured)> = BTreeMap::new();
-        let mut judge = |i: i64| {
-            if let Some((_, measured)) = seen.get(&i) {
-                return measured.over(allowed);
-            }
-            // the first rung is judged whatever it costs: its histories have bounds of their own
-            if effort.stopped() || !seen.is_empty() && effort.stops() {
-                return None;
-            }
-            let found = judged(i);
-            // a rung half judged is none
-            if effort.stopped() {
-                return None;
-            }
-            let over = seen.entry(i).or_insert(found).1.over(allowed)?;
-            let least =
-                seen.values().filter_map(|(_, m)| m.over(allowed)).fold(f64::INFINITY, f64::min);
-            progress(seen.len(), least * allowed.error);
-            Some(over)
-        };
-        let found = seek(self.ends.0, self.ends.1, self.guess, &mut judge);
-        // cut: the best so far; else there is nothing to measure springs on
-        let over = |i: &i64| seen[i].1.over(allowed).unwrap_or(f64::INFINITY);
-        let best = seen.keys().copied().min_by(|a, b| over(a).total_cmp(&over(b)));
-        let rung = found.map(|found| found.rung).or(best).unwrap_or(self.guess);
-        let stiffnesses = seen.len();
-        let unmeasured = || match effort.cut() {
-            Some(_) => (springs(rung, 1.0), Measured::default()),
-            None => judged(rung),
-        };
-        let (springs, measured) = seen.remove(&rung).unwrap_or_else(unmeasured);
-        // by what was asked for, not by the margin that is aimed at
-        let known = found.is_some() || effort.cut().is_some();
-        let reached = known && measured.over(asked).is_some_and(|over| over <= 1.0);
-        ElasticRung { rung, springs, measured, reached, judged: stiffnesses }
-    }
+        let quieter = of(QUIETER);
+        if over(&quieter).unwrap_or(0.0) < over(&balanced).unwrap_or(0.0) {
+            quieter
+        } else {
+            balanced
+        }
+    };
+    let told = |rungs: usize, least: f64| progress(rungs, least * allowed.error);
+    let (mut seen, found) = ladder.search(|i, _| Some(judged(i)), over, effort, &told);
+    // cut: the best so far; else there is nothing to measure springs on
+    let rung = found.or_else(|| best(&seen, over)).unwrap_or(ladder.guess);
+    let stiffnesses = seen.len();
+    let cut = effort.cut().is_some();
+    let unmeasured = || if cut { (springs(rung, 1.0), Measured::default()) } else { judged(rung) };
+    let (springs, measured) = seen.remove(&rung).unwrap_or_else(unmeasured);
+    // by what was asked for, not by the margin that is aimed at
+    let known = found.is_some() || cut;
+    let reached = known && measured.over(asked).is_some_and(|over| over <= 1.0);
+    ElasticRung { rung, springs, measured, reached, judged: stiffnesses }
 }
 
 /// The structure as it stands on rigid ground.

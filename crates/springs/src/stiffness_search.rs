@@ -10,7 +10,7 @@
 use std::collections::BTreeMap;
 
 use super::{
-    ladder::{DECADE, FoundRung, seek},
+    ladder::{DECADE, Ladder, best},
     suite::{JudgedOn, MeasuredErrors, Suites},
 };
 use cases::Asked;
@@ -68,74 +68,51 @@ pub(crate) fn tune(
     springs: &dyn Fn(f64) -> Option<Springs<Design<f64>>>,
     progress: &dyn Fn(usize, f64),
 ) -> Option<Tuned> {
-    let mut seen: BTreeMap<i64, Rung> = BTreeMap::new();
-    let allowed = asked.times(MARGIN);
-    let over = |rung: &Rung| rung.errors.over(allowed);
-    let control = control(asked.error);
-    let mut judge = |i: i64| -> Option<f64> {
-        if let Some(rung) = seen.get(&i) {
-            return Some(over(rung));
-        }
-        // the first rung is judged whatever it costs: its histories have bounds of their own
-        if effort.stopped() || !seen.is_empty() && effort.stops() {
-            return None;
-        }
-        let stiffness = stiffness(i);
-        let springs = springs(stiffness)?;
-        let mut errors = MeasuredErrors::default();
-        for suite in in_order(&seen, i, allowed) {
-            suites.measure(suite, &springs.chains(mass), (control, effort), &mut errors);
-            // a rung half judged is none
-            if effort.stopped() {
-                return None;
-            }
-            if !seen.is_empty() && errors.over(allowed) > 1.0 {
-                break;
-            }
-        }
-        seen.insert(i, Rung { stiffness, springs, errors });
-        let least = seen.values().map(&over).fold(f64::INFINITY, f64::min);
-        progress(seen.len(), least);
-        seen.get(&i).map(&over)
-    };
     let (first, last) = (rung_from(softest), rung_up_to(stiffest));
     if first > last {
         return None;
     }
-    let guess = rung(begin(asked)).round() as i64;
-    let found = match seek(first, last, guess, &mut judge) {
-        Some(found) => found,
-        None if effort.cut().is_some() => {
-            so_far(&mut seen, guess.clamp(first, last), &over, springs)?
+    let guess = (rung(begin(asked)).round() as i64).clamp(first, last);
+    let allowed = asked.times(MARGIN);
+    let over = |rung: &Rung| rung.errors.over(allowed);
+    let control = control(asked.error);
+    let judge = |i: i64, seen: &BTreeMap<i64, Rung>| {
+        let mut rung = Rung::unmeasured(i, springs)?;
+        for suite in in_order(seen, i, allowed) {
+            let chains = rung.springs.chains(mass);
+            suites.measure(suite, &chains, (control, effort), &mut rung.errors);
+            if effort.stopped() || !seen.is_empty() && over(&rung) > 1.0 {
+                break;
+            }
         }
-        None => return None,
+        Some(rung)
     };
-    let best = seen.get_mut(&found.rung)?;
+    let ladder = Ladder { ends: (first, last), guess };
+    let some_over = |rung: &Rung| Some(over(rung));
+    let (mut seen, found) = ladder.search(judge, some_over, effort, progress);
+    // cut: the best so far; else the one that the search would have begun with
+    let cut = effort.cut().is_some();
+    let judged = found.or_else(|| best(&seen, some_over).filter(|_| cut));
+    let taken = judged.or(cut.then_some(guess))?;
+    if judged.is_none() {
+        seen.insert(guess, Rung::unmeasured(guess, springs)?);
+    }
+    let best = seen.get_mut(&taken)?;
     for suite in JudgedOn::ALL {
         if best.errors.over_on(suite, allowed).is_none() && !effort.stopped_from_outside() {
             suites.measure(suite, &best.springs.chains(mass), (control, effort), &mut best.errors);
         }
     }
-    let (best, reached) = (*best, found.holds && over(best) <= 1.0);
+    let (best, reached) = (*best, judged.is_some() && over(best) <= 1.0);
     Some(Tuned { rungs: seen.into_values().collect(), best, reached })
 }
 
-/// The best rung of a search that was cut; the one that it would have begun with if none was
-/// judged.
-fn so_far(
-    seen: &mut BTreeMap<i64, Rung>,
-    guess: i64,
-    over: &dyn Fn(&Rung) -> f64,
-    springs: &dyn Fn(f64) -> Option<Springs<Design<f64>>>,
-) -> Option<FoundRung> {
-    let least = seen.iter().map(|(i, rung)| (*i, over(rung))).min_by(|a, b| a.1.total_cmp(&b.1));
-    if let Some((rung, over)) = least {
-        return Some(FoundRung { rung, holds: over <= 1.0 });
+impl Rung {
+    fn unmeasured(i: i64, springs: &dyn Fn(f64) -> Option<Springs<Design<f64>>>) -> Option<Self> {
+        let stiffness = stiffness(i);
+        let errors = MeasuredErrors::default();
+        Some(Self { stiffness, springs: springs(stiffness)?, errors })
     }
-    let stiffness = stiffness(guess);
-    let errors = MeasuredErrors::default();
-    seen.insert(guess, Rung { stiffness, springs: springs(stiffness)?, errors });
-    Some(FoundRung { rung: guess, holds: false })
 }
 
 /// How closely histories are followed to find out whether they are this accurate: steps over

@@ -2,9 +2,9 @@
 //! with.
 
 use super::{
-    ElasticTuneError, Rungs,
+    ElasticTuneError,
     design::{CornerSprings, omega_n_hz, springs},
-    give, landing_speed, stand,
+    give, ladder, landing_speed, stand,
 };
 use cases::Asked;
 use frames::assembled::Assembled;
@@ -18,6 +18,6 @@ pub fn springs_of_structure(
     asked: Asked,
 ) -> Result<CornerSprings, ElasticTuneError> {
     let standing = stand(model).ok_or(ElasticTuneError::Falls)?;
-    let rungs = Rungs::new(asked.error, None, |i| omega_n_hz(&standing, give(i)))?;
+    let rungs = ladder(asked.error, None, |i| omega_n_hz(&standing, give(i)))?;
     Ok(springs(&standing, give(rungs.guess), landing_speed(&model.structure), 1.0))
 }

@@ -24,27 +24,28 @@ fn measured(error: f64) -> Measured {
 #[test]
 fn springs_softer_than_any_rung_are_refused_and_others_bound_the_search() {
     let softest = hz(RUNGS.0);
-    let refused = Rungs::new(0.002, Some(0.9 * softest), hz).unwrap_err();
+    let refused = ladder(0.002, Some(0.9 * softest), hz).unwrap_err();
     assert!(
         matches!(refused, ElasticTuneError::TooSoft { softest_hz, .. } if softest_hz == softest),
         "{refused}"
     );
     for most in [softest, 1.5 * softest, 1e3 * softest] {
-        let rungs = Rungs::new(1e-5, Some(most), hz).unwrap();
+        let rungs = ladder(1e-5, Some(most), hz).unwrap();
         assert!(
             hz(rungs.ends.1) <= most * (1.0 + 1e-12) && hz(rungs.ends.1 + 1) > most,
             "{most} {rungs:?}"
         );
         assert!(rungs.guess <= rungs.ends.1);
     }
-    assert_eq!(Rungs::new(0.002, None, hz).unwrap(), Rungs { ends: RUNGS, guess: 37 });
+    assert_eq!(ladder(0.002, None, hz).unwrap(), Ladder { ends: RUNGS, guess: 37 });
 }
 
 /// Errors of a tenth of the give, as good as asked at 0.7 times 0.002.
 #[test]
 fn the_softest_springs_that_hold_are_taken() {
-    let rungs = Rungs::new(0.002, None, hz).unwrap();
-    let tuned = rungs.search(
+    let rungs = ladder(0.002, None, hz).unwrap();
+    let tuned = search(
+        rungs,
         Asked::new(0.002, None),
         springs,
         &|springs| measured(0.1 * springs.give),
@@ -61,16 +62,17 @@ fn the_softest_springs_that_hold_are_taken() {
 #[test]
 fn springs_with_less_rebound_are_tried_where_the_balanced_ones_do_not_hold() {
     let errors = |springs: &CornerSprings| measured(0.1 * springs.give + 0.02 * springs.k);
-    let rungs = Rungs::new(0.002, None, hz).unwrap();
+    let rungs = ladder(0.002, None, hz).unwrap();
     let tuned =
-        rungs.search(Asked::new(0.002, None), springs, &errors, &Effort::unbounded(), &|_, _| ());
+        search(rungs, Asked::new(0.002, None), springs, &errors, &Effort::unbounded(), &|_, _| ());
     assert!(tuned.reached && tuned.springs.k < 0.05, "{tuned:?}");
 }
 
 #[test]
 fn springs_that_nothing_could_be_measured_on_have_not_reached_the_accuracy() {
-    let rungs = Rungs::new(0.002, None, hz).unwrap();
-    let tuned = rungs.search(
+    let rungs = ladder(0.002, None, hz).unwrap();
+    let tuned = search(
+        rungs,
         Asked::new(0.002, None),
         springs,
         &|_| Measured::default(),
