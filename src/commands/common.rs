@@ -7,9 +7,58 @@ use clap::Args;
 use super::{CommandError, terminal};
 use cases::{LONGEST_S, NO_MOTION, doubts::of_excitation};
 use strong_motion::{
-    Notice, ReadOptions, Recording, Source, TableColumn, Units, VerticalFrom,
+    Notice, ReadOptions, Record, Recording, Source, TableColumn, Units, VerticalFrom,
     excitation::Excitation,
 };
+
+/// What a record file does not say itself.
+#[derive(Clone, Debug, Default, Args)]
+pub struct ReadingOptions {
+    /// Time step, where the file does not say
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
+    dt: Option<f64>,
+    /// g, m/s2, cm/s2 or mm/s2, where the file does not say
+    #[arg(long)]
+    units: Option<Units>,
+    /// Component, by name or by azimuth in degrees, of a file with several [default: the stronger
+    /// horizontal one]
+    #[arg(long, value_name = "NAME", allow_hyphen_values = true)]
+    component: Option<String>,
+    /// Column of a table of several, by number (from 1, times included) or by its name in the
+    /// header
+    #[arg(long, value_name = "N|NAME", conflicts_with = "component")]
+    column: Option<TableColumn>,
+    /// Subtract the mean of the samples
+    #[arg(long)]
+    baseline: bool,
+}
+
+impl ReadingOptions {
+    pub fn asked(&self) -> ReadOptions {
+        let column = self.column.as_ref().map(TableColumn::component);
+        ReadOptions {
+            dt: self.dt,
+            units: self.units,
+            component: self.component.clone().or(column),
+            baseline: self.baseline,
+            vertical: None,
+        }
+    }
+}
+
+/// How to read a record's own file again: as it was read unless something else is asked for; none
+/// if the record is of no file.
+pub fn again(asked: ReadOptions, own: &Record) -> Option<(PathBuf, ReadOptions)> {
+    let Source::File { path, units, component, baseline, .. } = &own.source else { return None };
+    let options = ReadOptions {
+        dt: asked.dt.or(Some(own.dt)),
+        units: asked.units.or(Some(*units)),
+        component: asked.component.or_else(|| component.clone()),
+        baseline: asked.baseline || *baseline,
+        vertical: asked.vertical,
+    };
+    Some((path.clone(), options))
+}
 
 /// Which record, how scaled, how long.
 #[derive(Clone, Debug, Default, Args)]
@@ -18,23 +67,8 @@ pub struct RecordOptions {
     /// of the parameters unless given
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
-    /// Time step, where the file does not say
-    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
-    pub dt: Option<f64>,
-    /// g, m/s2, cm/s2 or mm/s2, where the file does not say
-    #[arg(long)]
-    pub units: Option<Units>,
-    /// Component, by name or by azimuth in degrees, of a file with several [default: the stronger
-    /// horizontal one]
-    #[arg(long, value_name = "NAME", allow_hyphen_values = true)]
-    pub component: Option<String>,
-    /// Column of a table of several, by number (from 1, times included) or by its name in the
-    /// header
-    #[arg(long, value_name = "N|NAME", conflicts_with = "component")]
-    pub column: Option<TableColumn>,
-    /// Subtract the mean of the samples
-    #[arg(long)]
-    pub baseline: bool,
+    #[command(flatten)]
+    file: ReadingOptions,
     /// Vertical component: auto, that of the record's file; none; or the file of one with the same
     /// times [default: the case's or the parameters'; none with --record]
     #[arg(long, value_name = "FILE|auto|none")]
@@ -94,20 +128,13 @@ impl RecordOptions {
     /// The own record from its file, with what the options say of it.
     fn read_again(&self, own: Excitation) -> Result<Excitation, CommandError> {
         let said = self.reading();
-        let Source::File { path, units, component, baseline, .. } = &own.record.source else {
+        let Some((path, options)) = again(said.clone(), &own.record) else {
             // there is none to leave out
             let none = Some(VerticalFrom::None);
             let asked_alone = said == ReadOptions { vertical: none, ..ReadOptions::default() };
             return if asked_alone { Ok(own) } else { Err(self.no_file()) };
         };
-        let options = ReadOptions {
-            dt: said.dt.or(Some(own.record.dt)),
-            units: said.units.or(Some(*units)),
-            component: said.component.or_else(|| component.clone()),
-            baseline: said.baseline || *baseline,
-            vertical: said.vertical,
-        };
-        let recording = Recording::read(path, &options)?;
+        let recording = Recording::read(&path, &options)?;
         recording.notices().iter().for_each(terminal::stderr);
         let record = recording.into_record();
         let kept = own.record.vertical.as_ref().filter(|_| options.vertical.is_none());
@@ -142,16 +169,7 @@ impl RecordOptions {
 
     /// What the options say of a file.
     fn reading(&self) -> ReadOptions {
-        ReadOptions {
-            dt: self.dt,
-            units: self.units,
-            component: self
-                .component
-                .clone()
-                .or_else(|| self.column.as_ref().map(TableColumn::component)),
-            baseline: self.baseline,
-            vertical: self.vertical.clone(),
-        }
+        ReadOptions { vertical: self.vertical.clone(), ..self.file.asked() }
     }
 
     fn check(&self) -> Result<(), CommandError> {

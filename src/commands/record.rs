@@ -4,41 +4,32 @@ mod row;
 
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{Arg, Args};
 use comfy_table::{Table, presets};
 use serde::Serialize;
 
-use super::{CommandError, terminal};
+use super::{
+    CommandError,
+    common::{ReadingOptions, again},
+    terminal,
+};
 use cases::{Case, LONGEST_S};
 use files::message::printable;
 use rocking::{scalar::GRAVITY, structure::Body};
 use row::ComponentRow;
 use run_folder::FolderError;
 use run_folder::place::check_folder;
-use strong_motion::{ReadOptions, RecordFormat, Recording, Source, TableColumn, Units};
+use strong_motion::{ReadOptions, RecordFormat, Recording};
 
 /// Options of `tune record`.
 #[derive(Debug, Args)]
+#[command(mut_args(of_several_files))]
 pub struct RecordFileOptions {
     /// Record files of any format; that of the case unless given
     #[arg(required_unless_present = "case", value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Time step, where the files do not say
-    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
-    dt: Option<f64>,
-    /// g, m/s2, cm/s2 or mm/s2, where the files do not say
-    #[arg(long)]
-    units: Option<Units>,
-    /// Component to take, by name or by azimuth in degrees [default: the stronger horizontal one]
-    #[arg(long, value_name = "NAME", allow_hyphen_values = true)]
-    component: Option<String>,
-    /// Column of a table of several, by number (from 1, times included) or by its name in the
-    /// header
-    #[arg(long, value_name = "N|NAME", conflicts_with = "component")]
-    column: Option<TableColumn>,
-    /// Subtract the mean of the samples
-    #[arg(long)]
-    baseline: bool,
+    #[command(flatten)]
+    reading: ReadingOptions,
     /// Case file: the structure to measure the records on, and the record where none is named
     #[arg(long, value_name = "case.toml")]
     case: Option<PathBuf>,
@@ -48,6 +39,20 @@ pub struct RecordFileOptions {
     /// Folder for a figure of each record: acceleration and velocity
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+}
+
+/// The help of options that other commands have for one file.
+fn of_several_files(option: Arg) -> Arg {
+    let help = match option.get_id().as_str() {
+        "dt" => "Time step, where the files do not say",
+        "units" => "g, m/s2, cm/s2 or mm/s2, where the files do not say",
+        "component" => {
+            "Component to take, by name or by azimuth in degrees [default: the stronger \
+             horizontal one]"
+        }
+        _ => return option,
+    };
+    option.help(help)
 }
 
 /// One file.
@@ -77,7 +82,7 @@ struct RunInputs {
 }
 
 pub fn run(o: &RecordFileOptions) -> Result<(), CommandError> {
-    let own = if o.files.is_empty() { o.asked() } else { ReadOptions::default() };
+    let own = if o.files.is_empty() { o.reading.asked() } else { ReadOptions::default() };
     let case = o.case.as_deref().map(|path| Case::read_asking(path, &own)).transpose()?;
     let body = case.as_ref().map(|case| case.structure.body::<f64>());
     // a case's length is that of its own record: another one is taken whole
@@ -119,43 +124,24 @@ pub fn run(o: &RecordFileOptions) -> Result<(), CommandError> {
     }
 }
 
-impl RecordFileOptions {
-    /// What the options say of the files.
-    fn asked(&self) -> ReadOptions {
-        let component =
-            self.component.clone().or_else(|| self.column.as_ref().map(TableColumn::component));
-        let (dt, units, baseline) = (self.dt, self.units, self.baseline);
-        ReadOptions { dt, units, component, baseline, vertical: None }
-    }
-}
-
 /// The files that were named and how to read them; with none named, that of the case, as the case
 /// says unless an option does.
 fn named(
     o: &RecordFileOptions,
     case: Option<&Case>,
 ) -> Result<Vec<(PathBuf, ReadOptions)>, CommandError> {
-    let asked = o.asked();
+    let asked = o.reading.asked();
     let Some(case) = case.filter(|_| o.files.is_empty()) else {
         return Ok(o.files.iter().map(|file| (file.clone(), asked.clone())).collect());
     };
-    match case.excitation.record.source.clone() {
-        Source::File { path, units, component, baseline, .. } => {
-            let options = ReadOptions {
-                dt: asked.dt.or(Some(case.excitation.record.dt)),
-                units: asked.units.or(Some(units)),
-                component: asked.component.or(component),
-                baseline: asked.baseline || baseline,
-                vertical: None,
-            };
-            Ok(vec![(path, options)])
-        }
-        _ => Err(CommandError::Result(
+    let read = again(asked, &case.excitation.record).ok_or_else(|| {
+        CommandError::Result(
             "the case names no record file, and so stands for El Centro, which is part of the \
              program; name a file to look at"
                 .into(),
-        )),
-    }
+        )
+    })?;
+    Ok(vec![read])
 }
 
 impl FileReport {
