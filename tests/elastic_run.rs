@@ -1,18 +1,16 @@
 //! `tune run` on elastic structures, as a program.
 
-use std::{
-    path::Path,
-    process::{Command, Output},
-};
+use std::path::Path;
 
 use parameters::elastic::ElasticParameters;
 use serde_json::Value;
 
-const PIER: &str = include_str!("../tuning/pier.toml");
+#[path = "support/program.rs"]
+mod program;
 
-fn tune(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_tune")).current_dir(folder).args(arguments).output().unwrap()
-}
+use program::tune;
+
+const PIER: &str = include_str!("../tuning/pier.toml");
 
 fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()

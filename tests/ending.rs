@@ -11,6 +11,9 @@ use serde_json::Value;
 use springs::job::{Job, JobError};
 use strong_motion::Record;
 
+#[path = "support/program.rs"]
+mod program;
+
 /// Light, with the inertia of a heavy one, and another restitution than equation 2's: a search over
 /// all parameters.
 const SLOW: &str = "[structure]\nkind = 'aframe'\nheight_m = 61.0\nwidth_m = 12.2\nmass_kg = 2.0\n\
@@ -240,11 +243,8 @@ fn vertical(folder: &std::path::Path, width: f64, scale: f64) -> (String, String
          [record]\nfile = '{record}'\nvertical = 'auto'\nscale = {scale:?}\nduration_s = 90\n"
     );
     std::fs::write(folder.join("case.toml"), case).unwrap();
-    let ran = std::process::Command::new(env!("CARGO_BIN_EXE_tune"))
-        .current_dir(folder)
-        .args(["run", "case.toml", "--quiet", "--no-figures", "--no-front"])
-        .output()
-        .unwrap();
+    let run = ["run", "case.toml", "--quiet", "--no-figures", "--no-front"];
+    let ran = program::tune(folder, &run);
     assert!(ran.status.success(), "{}", String::from_utf8_lossy(&ran.stderr));
     let report = std::fs::read_to_string(folder.join("out/report.html")).unwrap();
     // without the marks that keep numbers and units together

@@ -4,6 +4,11 @@
 
 use std::process::Command;
 
+#[path = "support/program.rs"]
+mod program;
+
+use program::tune;
+
 /// The interpreter of a format, as words: Tcl's only where it is named.
 fn interpreter(format: &str) -> Option<Vec<String>> {
     let variable = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
@@ -21,11 +26,7 @@ fn interpreter(format: &str) -> Option<Vec<String>> {
 fn decks_of_even_steps_find_what_the_emulation_found() {
     let folder = tempfile::tempdir().unwrap();
     let run = |args: &[&str]| {
-        let out = Command::new(env!("CARGO_BIN_EXE_tune"))
-            .args(args)
-            .current_dir(&folder)
-            .output()
-            .unwrap();
+        let out = tune(folder.path(), args);
         assert!(out.status.success(), "{args:?}: {}", String::from_utf8_lossy(&out.stderr));
     };
     let block = "[structure]\nkind = 'block'\ntotal_height_m = 4.0\nwidth_m = 1.2\nmass_kg = 4e3\n\
@@ -104,11 +105,7 @@ fn decks_of_even_steps_find_what_the_emulation_found() {
 fn elastic_decks_of_substeps_at_touches_find_what_the_emulation_found() {
     let folder = tempfile::tempdir().unwrap();
     let run = |args: &str| {
-        let out = Command::new(env!("CARGO_BIN_EXE_tune"))
-            .args(args.split_whitespace())
-            .current_dir(&folder)
-            .output()
-            .unwrap();
+        let out = tune(folder.path(), &args.split_whitespace().collect::<Vec<_>>());
         assert!(out.status.success(), "{args}: {}", String::from_utf8_lossy(&out.stderr));
     };
     let pier = "[structure]\nkind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\n\

@@ -2,13 +2,15 @@
 
 use std::{fs, path::Path, process::Output};
 
-use assert_cmd::Command;
 use serde_json::Value;
 use strong_motion::Record;
 use tempfile::TempDir;
 
+#[path = "support/program.rs"]
+mod program;
+
 fn tune(dir: &Path, args: &[&str]) -> Output {
-    let output = Command::cargo_bin("tune").unwrap().current_dir(dir).args(args).output().unwrap();
+    let output = program::tune(dir, args);
     assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
     output
 }
@@ -116,8 +118,7 @@ fn a_sheet_brings_its_ground_motion_and_leaves_that_of_another() {
         assert_eq!(read(&format!("sheets/{file}")), read(&format!("out/decks/{file}")), "{file}");
     }
     let other = [&sheet[..], &["--scale", "0.5", "--out", "sheets/half.txt"]].concat();
-    let output =
-        Command::cargo_bin("tune").unwrap().current_dir(&dir).args(other).output().unwrap();
+    let output = program::tune(dir.path(), &other);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("is not the ground motion of this sheet"), "{output:?}");
     assert!(!dir.path().join("sheets/half.txt").exists());
@@ -132,8 +133,7 @@ fn a_sheet_brings_its_ground_motion_and_leaves_that_of_another() {
     assert!(own.is_some() && scaled.is_some() && own != scaled, "{own:?} {scaled:?}");
     // SAP2000 takes no steps that follow touches
     let events = [&sheet[..], &["--stepping", "events", "--out", "events/"]].concat();
-    let output =
-        Command::cargo_bin("tune").unwrap().current_dir(&dir).args(events).output().unwrap();
+    let output = program::tune(dir.path(), &events);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("give --stepping even"), "{output:?}");
     assert!(!dir.path().join("events").exists());
@@ -245,16 +245,9 @@ fn what_is_read_is_not_written_over() {
         let before = fs::read(dir.path().join(out)).unwrap();
         let export =
             ["export", "--parameters", "out/parameters.json", "--format", "csv", "--out", out];
-        let mut refused = Command::cargo_bin("tune").unwrap();
-        let refused = refused
-            .current_dir(dir.path())
-            .args(export)
-            .assert()
-            .code(2)
-            .get_output()
-            .stderr
-            .clone();
-        let told = String::from_utf8(refused).unwrap();
+        let refused = program::tune(dir.path(), &export);
+        assert_eq!(refused.status.code(), Some(2));
+        let told = stderr(&refused);
         assert!(told.contains(what) && told.contains("name another file with --out"), "{told}");
         assert_eq!(fs::read(dir.path().join(out)).unwrap(), before);
     }

@@ -1,9 +1,10 @@
 //! A body whose friction gives way before it lifts, as a program.
 
-use std::{path::Path, process::Command};
-
 use serde_json::Value;
 use strong_motion::Record;
+
+#[path = "support/program.rs"]
+mod program;
 
 const GRAVITY: f64 = 9.81;
 
@@ -11,12 +12,8 @@ const GRAVITY: f64 = 9.81;
 fn run(case: &str, options: &[&str]) -> (String, Value, String) {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("case.toml"), case).unwrap();
-    let ran = Command::new(env!("CARGO_BIN_EXE_tune"))
-        .current_dir(folder.path())
-        .args(["run", "case.toml", "--quiet", "--no-figures", "--no-report"])
-        .args(options)
-        .output()
-        .unwrap();
+    let run = ["run", "case.toml", "--quiet", "--no-figures", "--no-report"];
+    let ran = program::tune(folder.path(), &[&run, options].concat());
     assert!(ran.status.success(), "{}", String::from_utf8_lossy(&ran.stderr));
     let read = |name: &str| std::fs::read_to_string(folder.path().join("out").join(name)).unwrap();
     let parameters = serde_json::from_str(&read("parameters.json")).unwrap();
@@ -84,8 +81,8 @@ fn a_block_that_slides_is_newmarks() {
 /// that slides its slip.
 #[test]
 fn a_vertical_motion_left_out_is_told_of_the_body_with_friction() {
-    let file =
-        Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/records/20161113_110259_WTMC_20.V2A");
+    let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/records/20161113_110259_WTMC_20.V2A");
     let case = format!(
         "[structure]\nkind = 'block'\ntotal_height_m = 0.82\nwidth_m = 0.369\nmass_kg = 120.0\n\
          [friction]\ncoefficient = 0.42\n[record]\nfile = {file:?}\nduration_s = 70.0\n\

@@ -10,7 +10,6 @@ use std::{
     time::Duration,
 };
 
-use assert_cmd::cargo::cargo_bin;
 use tempfile::TempDir;
 
 const SWEEP: &str = r#"
@@ -41,7 +40,7 @@ pga_g = { from = 0.1, to = 2.0, count = 12, spacing = "log" }
 "#;
 
 fn tune(folder: &Path, args: &[&str]) -> Command {
-    let mut command = Command::new(cargo_bin("tune"));
+    let mut command = Command::new(env!("CARGO_BIN_EXE_tune"));
     command.current_dir(folder).args(args).stdout(Stdio::null()).stderr(Stdio::null());
     command
 }

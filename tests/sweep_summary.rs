@@ -1,9 +1,13 @@
 //! `tune sweep`: what its summary and tables say of small sweeps whose answers are known.
 
-use std::{fs, process::Command};
+use std::fs;
 
-use assert_cmd::cargo::cargo_bin;
 use tempfile::TempDir;
+
+#[path = "support/program.rs"]
+mod program;
+
+use program::tune;
 
 /// A folder in which a sweep ran, and its summary.
 struct SweepRun {
@@ -16,11 +20,7 @@ impl SweepRun {
         let dir = TempDir::new().unwrap();
         fs::write(dir.path().join("sweep.toml"), spec).unwrap();
         fs::write(dir.path().join("record.csv"), record).unwrap();
-        let ran = Command::new(cargo_bin("tune"))
-            .current_dir(dir.path())
-            .args(["sweep", "sweep.toml", "--out", "out", "--quiet"])
-            .output()
-            .unwrap();
+        let ran = tune(dir.path(), &["sweep", "sweep.toml", "--out", "out", "--quiet"]);
         assert!(ran.status.success(), "{ran:?}");
         let summary = fs::read_to_string(dir.path().join("out/summary.md")).unwrap();
         Self { dir, summary }

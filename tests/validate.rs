@@ -2,13 +2,17 @@
 
 use std::{fs, path::Path, process::Output};
 
-use assert_cmd::Command;
 use dynamics::spring::{Design, Springs};
 use parameters::Parameters;
 use rocking::structure::Structure;
 use serde_json::Value;
 use strong_motion::Record;
 use tempfile::TempDir;
+
+#[path = "support/program.rs"]
+mod program;
+
+use program::tune;
 
 /// A folder with parameters.json (the paper's frame on springs of 160 Hz) and a folder of two
 /// records.
@@ -29,10 +33,6 @@ fn folder() -> TempDir {
     fs::write(records.join("centro.txt"), column).unwrap();
     fs::write(records.join("weak.txt"), "0\n0.01\n-0.02\n0\n").unwrap();
     dir
-}
-
-fn tune(dir: &Path, args: &[&str]) -> Output {
-    Command::cargo_bin("tune").unwrap().current_dir(dir).args(args).output().unwrap()
 }
 
 fn validate(dir: &Path, more: &[&str]) -> Output {

@@ -14,8 +14,7 @@ const TABLE: &str =
 fn accepts(files: &[(&str, &str)], args: &[&str]) -> String {
     let dir = TempDir::new().unwrap();
     files.iter().for_each(|(name, text)| fs::write(dir.path().join(name), text).unwrap());
-    let output =
-        Command::cargo_bin("tune").unwrap().current_dir(dir.path()).args(args).output().unwrap();
+    let output = program::tune(dir.path(), args);
     let stderr = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(0), "{args:?}: {stderr}");
     stderr
@@ -38,8 +37,7 @@ fn doubts(case: &str, more: &[&str]) -> Vec<String> {
         "60",
     ];
     let args = [&run[..], more].concat();
-    let output =
-        Command::cargo_bin("tune").unwrap().current_dir(dir.path()).args(args).output().unwrap();
+    let output = program::tune(dir.path(), &args);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     let filed = fs::read_to_string(dir.path().join("out/parameters.json")).unwrap();
     let filed: serde_json::Value = serde_json::from_str(&filed).unwrap();

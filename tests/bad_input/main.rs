@@ -5,11 +5,12 @@ mod doubts;
 mod files;
 mod mistakes;
 mod options;
+#[path = "../support/program.rs"]
+mod program;
 mod sweeps;
 
 use std::{fs, path::Path};
 
-use assert_cmd::Command;
 use tempfile::TempDir;
 
 /// Run `tune` in an empty folder with the given files; it must fail cleanly and say each of
@@ -36,7 +37,7 @@ fn refuses_bytes(files: &[(&str, &[u8])], args: &[&str], words: &[&str]) {
 
 fn refuses_in(dir: &Path, args: &[&str], words: &[&str]) {
     let before = entries(dir);
-    let output = Command::cargo_bin("tune").unwrap().current_dir(dir).args(args).output().unwrap();
+    let output = program::tune(dir, args);
     let stderr = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(2), "{args:?}: {stderr}");
     assert_eq!(stderr.trim_end().lines().count(), 1, "{args:?}: more than one line: {stderr}");

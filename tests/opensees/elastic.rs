@@ -1,6 +1,6 @@
 //! Elastic structures in OpenSees, against our own histories and plastic landings.
 
-use super::programs;
+use super::{program, programs};
 use decks::verify::Program;
 
 /// `tune run` of an elastic structure, then `tune verify` in each program, with these options; the
@@ -14,9 +14,7 @@ fn elastic_agrees(
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("case.toml"), case).unwrap();
     let tune = |arguments: &[&str]| {
-        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_tune"));
-        let out =
-            command.current_dir(folder.path()).args(arguments).arg("--quiet").output().unwrap();
+        let out = program::tune(folder.path(), &[arguments, &["--quiet"]].concat());
         (
             out.status.success(),
             String::from_utf8(out.stdout).unwrap() + &String::from_utf8(out.stderr).unwrap(),

@@ -7,6 +7,8 @@
 //! "python3 -m opensees" (`pip install opensees`) or "OpenSees".
 
 mod elastic;
+#[path = "../support/program.rs"]
+mod program;
 
 use cases::{Case, Objective};
 use decks::{

@@ -1,19 +1,11 @@
 //! `tune record`, and the other commands on files with several components.
 
-use std::{fs, path::Path};
+use std::fs;
 
-use assert_cmd::Command;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::write;
-
-/// Run `tune` in a folder: exit code, stdout, stderr.
-fn tune(dir: &Path, args: &[&str]) -> (i32, String, String) {
-    let output = Command::cargo_bin("tune").unwrap().current_dir(dir).args(args).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
-}
+use crate::{tune, write};
 
 fn folder() -> TempDir {
     let dir = TempDir::new().unwrap();

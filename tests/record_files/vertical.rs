@@ -1,20 +1,13 @@
 //! The vertical component: from the same file or another one, through the commands, remembered;
 //! refused where it does not fit.
 
-use std::{fs, path::Path};
+use std::fs;
 
-use assert_cmd::Command;
 use serde_json::Value;
 use strong_motion::{ReadOptions, Record, VerticalFrom};
 use tempfile::TempDir;
 
-use crate::write;
-
-fn tune(dir: &Path, args: &[&str]) -> (i32, String, String) {
-    let output = Command::cargo_bin("tune").unwrap().current_dir(dir).args(args).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
-}
+use crate::{tune, write};
 
 /// One column in m/s2.
 fn column(values: &[f64]) -> String {
