@@ -24,6 +24,11 @@ impl From<&Chain> for UnitRow {
 }
 
 impl UnitRow {
+    /// k1, k2, m2, c.
+    pub fn numbers(&self) -> [f64; 4] {
+        [self.k1_n_per_m, self.k2_n_per_m, self.m2_kg, self.c_ns_per_m]
+    }
+
     fn chain(&self) -> Chain {
         Chain { k1: self.k1_n_per_m, k2: self.k2_n_per_m, m2: self.m2_kg, c: self.c_ns_per_m }
     }

@@ -27,6 +27,7 @@ pub mod stiffness_tradeoff;
 pub mod table;
 mod verdict;
 
+use dynamics::spring::Chain;
 use rocking::structure::Kind;
 use serde::Serialize;
 
@@ -38,7 +39,7 @@ use cases::{
 };
 pub use displacements::{peak_table, summary};
 pub use markdown::{force_value, forces_to_design_with, height};
-use parameters::{Parameters, elastic::ElasticParameters};
+use parameters::{Parameters, corner::UnitRow, elastic::ElasticParameters};
 pub use program::ProgramReport;
 pub use results::predictable_to;
 use results::{
@@ -160,14 +161,9 @@ impl Taken {
 pub struct Unit {
     /// Which: "vertical", or with its place where places differ.
     pub name: String,
-    /// Gap spring k1 (N/m).
-    pub k1_n_per_m: f64,
-    /// Spring k2 under the absorber (N/m).
-    pub k2_n_per_m: f64,
-    /// Absorber's mass m2 (kg).
-    pub m2_kg: f64,
-    /// Dashpot c beside k2 (N s/m).
-    pub c_ns_per_m: f64,
+    /// Its numbers.
+    #[serde(flatten)]
+    pub row: UnitRow,
 }
 
 /// When a structure first lifts (s), as a fact.
@@ -175,14 +171,10 @@ pub(crate) fn first_lift(time: f64) -> (String, String) {
     ("first lifts at".into(), format!("{} s", files::message::significant(time, 4)))
 }
 
-/// A unit as parameters.json has it.
-pub fn unit_of(name: &str, row: &dynamics::spring::ChainRow) -> Unit {
-    Unit {
-        name: name.into(),
-        k1_n_per_m: row.k1_n_per_m,
-        k2_n_per_m: row.k2_n_per_m,
-        m2_kg: row.m2_kg,
-        c_ns_per_m: row.c_ns_per_m,
+impl Unit {
+    /// Of a name.
+    pub fn new(name: &str, chain: &Chain) -> Self {
+        Self { name: name.into(), row: chain.into() }
     }
 }
 

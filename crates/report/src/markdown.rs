@@ -312,8 +312,7 @@ fn other_forces(run: &Run) -> Option<Section> {
 
 fn springs(run: &Run) -> Table {
     let row = |unit: &super::Unit| {
-        let cells = [unit.k1_n_per_m, unit.k2_n_per_m, unit.m2_kg, unit.c_ns_per_m]
-            .map(|x| significant(x, 5));
+        let cells = unit.row.numbers().map(|x| significant(x, 5));
         [vec![unit.name.clone()], cells.into()].concat()
     };
     Table::new(["unit", "k1 [N/m]", "k2 [N/m]", "m2 [kg]", "c [N s/m]"])

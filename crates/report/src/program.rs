@@ -4,7 +4,7 @@ mod errors;
 
 use serde::Serialize;
 
-use super::{Section, Table, Unit, elastic::springs::corner_units, filed, predictable_to, unit_of};
+use super::{Section, Table, Unit, elastic::springs::corner_units, filed, predictable_to};
 use decks::OutputSteps;
 use errors::{ErrorWords, ErrorsOf, errors, table};
 use files::message::{quantity, significant};
@@ -89,7 +89,10 @@ impl ProgramReport {
     pub(crate) fn of_rigid(parameters: &Parameters) -> Option<Self> {
         let row = parameters.program.as_ref()?;
         let FootUnits { vertical, horizontal, rotational_inertia_kgm2 } = row.units;
-        let units = [unit_of("vertical", &vertical), unit_of("horizontal", &horizontal)];
+        let units = [
+            Unit::new("vertical", &vertical.chain()),
+            Unit::new("horizontal", &horizontal.chain()),
+        ];
         let given = parameters.structure.rotational_inertia_kgm2;
         let inertia = (rotational_inertia_kgm2 != given).then(|| {
             let value = format!("{} kg m2", significant(rotational_inertia_kgm2, 4));
@@ -200,8 +203,8 @@ impl ProgramReport {
     /// k1, k2, m2, c of its units.
     pub(crate) fn springs(&self) -> Section {
         let row = |unit: &Unit| {
-            let numbers = [unit.k1_n_per_m, unit.k2_n_per_m, unit.m2_kg, unit.c_ns_per_m];
-            [vec![unit.name.clone()], numbers.map(|x| format!("{x:.4e}")).into()].concat()
+            [vec![unit.name.clone()], unit.row.numbers().map(|x| format!("{x:.4e}")).into()]
+                .concat()
         };
         Section {
             id: "program-springs",

@@ -8,12 +8,11 @@ pub mod tables;
 mod taken;
 
 use super::{
-    AccuracyReport, Assumed, FiledParameters, ProgramReport, Run, Section, Taken, changes,
+    AccuracyReport, Assumed, FiledParameters, ProgramReport, Run, Section, Taken, Unit, changes,
     cut_at_largest, doubts, filed, judged,
     program::with_verdict,
     reference::{self, HousnerReport},
     stiffness_tradeoff::TradeoffPoint,
-    unit_of,
 };
 use cases::{Case, Objective, doubts::Doubt};
 use decks::stepped_history;
@@ -294,8 +293,8 @@ pub fn of_case(case: &Case, mut parameters: Parameters) -> Run {
 
 /// Springs without a record.
 fn alone(parameters: Parameters) -> Run {
-    let units =
-        [unit_of("vertical", &parameters.vertical), unit_of("horizontal", &parameters.horizontal)];
+    let units = [("vertical", parameters.vertical), ("horizontal", parameters.horizontal)]
+        .map(|(name, row)| Unit::new(name, &row.chain()));
     let findings = match parameters.findings.is_empty() {
         true => filed(springs_findings(&parameters)),
         false => parameters.findings.clone(),

@@ -306,8 +306,7 @@ fn springs(run: &Run, lines: &mut Vec<String>) {
         run.program.as_ref().map(|program| format!("{}, {}", program.short(), program.steps));
     let mut add = |of: Option<&str>, units: &[Unit]| {
         for unit in units.iter().take(SHOWN) {
-            let cells = [unit.k1_n_per_m, unit.k2_n_per_m, unit.m2_kg, unit.c_ns_per_m]
-                .map(|x| significant(x, 4));
+            let cells = unit.row.numbers().map(|x| significant(x, 4));
             let name = of.map_or(format!("  {}", unit.name), |of| format!("  {of}: {}", unit.name));
             table.rows.push([vec![name], cells.into()].concat());
         }

@@ -13,7 +13,7 @@ use crate::{
     series::{HistorySeries, tops},
 };
 use cases::{Case, ElasticCase};
-use dynamics::{fem::HistoryOutcome, spring::Chain};
+use dynamics::fem::HistoryOutcome;
 use frames::{
     assembled::Assembled,
     fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
@@ -89,7 +89,7 @@ fn elastic(case: &ElasticCase) -> Result<Said, WebError> {
     let springs = springs
         .corners
         .first()
-        .map(|s| [unit("vertical", &s.vertical), unit("horizontal", &s.horizontal)]);
+        .map(|s| [Unit::new("vertical", &s.vertical), Unit::new("horizontal", &s.horizontal)]);
     Ok(Said {
         verdict,
         does,
@@ -103,11 +103,6 @@ fn elastic(case: &ElasticCase) -> Result<Said, WebError> {
         working,
         history: HistorySeries::on_springs(&assembled, &fem, &record),
     })
-}
-
-fn unit(name: &str, chain: &Chain) -> Unit {
-    let Chain { k1, k2, m2, c, .. } = *chain;
-    Unit { name: name.into(), k1_n_per_m: k1, k2_n_per_m: k2, m2_kg: m2, c_ns_per_m: c }
 }
 
 /// With a capital letter and a full stop.

@@ -6,7 +6,7 @@ use crate::{WebError, any_case::AnyCase};
 use files::message::quantity;
 use fixed_steps::FixedStepProgram;
 use parameters::program::{FootUnits, ProgramRow};
-use report::{Unit, unit_of};
+use report::Unit;
 use springs::fixed_steps::ProgramSprings;
 
 /// The springs in closed form, which the run tries first and may leave for others.
@@ -33,7 +33,10 @@ pub(crate) fn preliminary(case: &AnyCase) -> Result<PreliminarySprings, WebError
         program: row.program(),
         steps: quantity(row.step_s, "s"),
         integrator: row.integrator_words(),
-        springs: vec![unit_of("vertical", vertical), unit_of("horizontal", horizontal)],
+        springs: vec![
+            Unit::new("vertical", &vertical.chain()),
+            Unit::new("horizontal", &horizontal.chain()),
+        ],
         median: found.expected.median,
         ninety: found.expected.ninety,
         floor: found.expected.floor,

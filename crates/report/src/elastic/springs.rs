@@ -9,7 +9,7 @@ use cases::{ElasticCase, Yardstick};
 use files::message::{quantity, significant};
 use frames::peaks::StructurePeakErrors;
 use parameters::{
-    corner::{CornerRow, UnitRow},
+    corner::CornerRow,
     elastic::{ElasticAssessment, ElasticParameters, OnRecord},
 };
 use results::Finding;
@@ -129,19 +129,13 @@ pub(crate) fn corner_units(corners: &[CornerRow]) -> Vec<Unit> {
         })
     });
     let rows = if same { &corners[..corners.len().min(1)] } else { corners };
-    let unit = |name: String, row: &UnitRow| Unit {
-        name,
-        k1_n_per_m: row.k1_n_per_m,
-        k2_n_per_m: row.k2_n_per_m,
-        m2_kg: row.m2_kg,
-        c_ns_per_m: row.c_ns_per_m,
-    };
     let springs = rows.iter().enumerate().flat_map(|(i, row)| {
         let name = |way: &str| match same {
             true => way.to_string(),
             false => format!("{way}, corner {} at {} m", i + 1, significant(row.x_m, 4)),
         };
-        [unit(name("vertical"), &row.vertical), unit(name("horizontal"), &row.horizontal)]
+        [("vertical", row.vertical), ("horizontal", row.horizontal)]
+            .map(|(way, row)| Unit { name: name(way), row })
     });
     springs.collect()
 }
