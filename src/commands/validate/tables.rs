@@ -2,9 +2,10 @@
 
 use std::fmt::Write;
 
-use comfy_table::{Table, presets};
+use comfy_table::presets;
 
 use super::CommandError;
+use report::Table;
 use rocking::motion::{percent, shown};
 use validation::{
     Confusion, GeometricMean, PREDICTABLE, Quantiles, RecordOutcome, Row, Suite, Summary,
@@ -14,9 +15,8 @@ use validation::{
 /// A line of the summary: what it says of each set of records.
 type Line<'a> = (String, &'a dyn Fn(&Summary) -> String);
 
-/// What the records say together, and each suite of several: head, then name and a value for each
-/// set.
-fn summary(v: &Validation) -> (Vec<String>, Vec<Vec<String>>) {
+/// What the records say together, and each suite of several: a name and a value for each set.
+fn summary(v: &Validation) -> Table {
     let sets = sets(v);
     let number = |x: Option<f64>| x.map_or("-".to_string(), shown);
     // of one record there are no statistics
@@ -82,13 +82,12 @@ fn summary(v: &Validation) -> (Vec<String>, Vec<Vec<String>>) {
             s.energy_residual_max.map_or("-".into(), |x| format!("{x:.1e}"))
         }),
     ];
-    let head =
-        [""].into_iter().chain(sets.iter().map(|(name, _)| *name)).map(str::to_string).collect();
+    let head = [""].into_iter().chain(sets.iter().map(|(name, _)| *name));
     let rows = lines.iter().map(|(name, value)| {
         let values = sets.iter().map(|(_, summary)| value(summary));
         [name.clone()].into_iter().chain(values).collect()
     });
-    (head, rows.collect())
+    Table::new(head).with(rows)
 }
 
 /// What peaks are compared of: of steps of one size no forces.
@@ -130,7 +129,7 @@ const HEAD: [&str; 12] = [
     "impacts",
 ];
 
-fn cells(row: &Row) -> [String; 12] {
+fn cells(row: &Row) -> Vec<String> {
     let number = |x: Option<f64>, none: &str| x.map_or(none.to_string(), |x| format!("{x:.4}"));
     let yes = |x: bool| if x { "yes" } else { "no" }.to_string();
     let missing = match row.outcome {
@@ -139,7 +138,7 @@ fn cells(row: &Row) -> [String; 12] {
         RecordOutcome::HousnerFailed => "Housner failed",
         RecordOutcome::FemFailed => "failed",
     };
-    [
+    vec![
         // the name comes from a file: it must not end the cell
         row.name.replace('|', "\\|"),
         format!("{:.4}", row.pga_g),
@@ -162,26 +161,12 @@ fn cells(row: &Row) -> [String; 12] {
 
 /// `validate.md`: the summary, then a row a record.
 pub fn markdown(v: &Validation, line: &str) -> String {
-    let (head, lines) = summary(v);
-    let mut out = format!(
-        "Finite elements on ground springs against Housner; {line}.\n\n| {} |\n{}|\n",
-        head.join(" | "),
-        "|---".repeat(head.len())
-    );
-    for line in lines {
-        // writing to a String cannot fail
-        let _ = writeln!(out, "| {} |", line.join(" | "));
-    }
-    let _ = write!(
-        out,
-        "\n| {} |\n{}|\n",
-        HEAD.map(|h| h.replace('|', "\\|")).join(" | "),
-        "|---".repeat(HEAD.len())
-    );
-    for row in &v.records {
-        let _ = writeln!(out, "| {} |", cells(row).join(" | "));
-    }
-    out
+    let records = Table::new(HEAD.map(|h| h.replace('|', "\\|"))).with(v.records.iter().map(cells));
+    format!(
+        "Finite elements on ground springs against Housner; {line}.\n\n{}\n{}",
+        summary(v).markdown(),
+        records.markdown()
+    )
 }
 
 /// `validate.csv`: a row a record, the columns of `validate.json`; empty where that has null.
@@ -196,10 +181,10 @@ pub fn csv(v: &Validation) -> Result<Vec<u8>, CommandError> {
 
 /// The summary for a terminal.
 pub fn terminal(v: &Validation) -> String {
-    let mut table = Table::new();
-    let (head, lines) = summary(v);
+    let mut table = comfy_table::Table::new();
+    let Table { head, rows } = summary(v);
     table.load_style(presets::ASCII_MARKDOWN).set_header(head);
-    table.add_rows(lines);
+    table.add_rows(rows);
     let mut out = table.to_string();
     for row in v.records.iter().filter(|_| v.records.len() == 1) {
         let cells =
