@@ -81,54 +81,23 @@ impl Finding {
 
     /// In one sentence.
     pub(crate) fn message(&self) -> String {
-        match self {
-            Self::Slides { .. } | Self::LeftAside { .. } | Self::CutAtLargest { .. } => self.slip(),
-            Self::NeverLifts { .. }
-            | Self::Stands { .. }
-            | Self::Overturns { .. }
-            | Self::NoAnswer { .. }
-            | Self::ModelsDisagree { .. }
-            | Self::PivotLeavesGround { .. }
-            | Self::WithoutVertical { .. } => self.outcome(),
-            Self::IllConditioned { .. }
-            | Self::ForetoldUpTo { .. }
-            | Self::SlidesOn { .. }
-            | Self::NearMotions { .. } => self.comparison(),
-            Self::AccuracyMissed { .. }
-            | Self::PeaksMissed { .. }
-            | Self::AccuracyNotMeasured
-            | Self::RestitutionMissed { .. }
-            | Self::RestitutionOutOfReach { .. }
-            | Self::LandingsUnfinished { .. }
-            | Self::MembersBeside { .. } => self.springs(),
-            Self::ForceWithheld { .. }
-            | Self::ForcesHeldInPart { .. }
-            | Self::ForcesOfCutoff { .. }
-            | Self::ForcesAtRest { .. } => self.forces(),
-            Self::ProgramStepTooLong { .. }
-            | Self::ProgramLoses { .. }
-            | Self::ProgramNotToBeUsed { .. }
-            | Self::ProgramErrsOnEarthquakes { .. }
-            | Self::ProgramStepForAccuracy { .. }
-            | Self::ProgramRestitution { .. } => self.program(),
-            Self::SearchCut { .. }
-            | Self::HistoriesUnfinished { .. }
-            | Self::NearMotionsLeftOut { .. } => self.effort(),
-            Self::Sliding { .. }
-            | Self::FreeFlight { .. }
-            | Self::TooStocky { .. }
-            | Self::HistoryEndsEarly { .. }
-            | Self::FeetApart { .. }
-            | Self::SmallestSteps { .. } => self.regime(),
-            Self::VerticalLeftOut { .. } | Self::Doubt { .. } | Self::DeckJudged { .. } => {
-                self.taken()
-            }
-        }
+        let words = [
+            Self::slip,
+            Self::outcome,
+            Self::comparison,
+            Self::springs,
+            Self::forces,
+            Self::program,
+            Self::effort,
+            Self::regime,
+            Self::taken,
+        ];
+        words.iter().find_map(|words| words(self)).unwrap_or_default()
     }
 
     /// How it slides, and that it goes on.
-    fn slip(&self) -> String {
-        match self {
+    fn slip(&self) -> Option<String> {
+        Some(match self {
             Self::Slides { friction, uplift_g, largest_m, left_m } => format!(
                 "it slides and does not rock: {} g lifts it, and friction of {} gives way before; \
                     it moves {} at most, and ends {} beside its place",
@@ -144,13 +113,13 @@ impl Finding {
             Self::LeftAside { left_m } => {
                 format!("it slips as well, and ends {} beside its place", quantity(*left_m, "m"))
             }
-            _ => String::new(),
-        }
+            _ => return None,
+        })
     }
 
     /// What the structure does.
-    fn outcome(&self) -> String {
-        match self {
+    fn outcome(&self) -> Option<String> {
+        Some(match self {
             Self::NeverLifts { pga_g, uplift_g } => {
                 let short = if pga_g > uplift_g { " for longer than its peaks last" } else { "" };
                 format!(
@@ -181,7 +150,7 @@ impl Finding {
                     None => format!("{found} of overturning"),
                 };
                 if *share_of_overturning < HARDLY_ROCKS {
-                    return format!("{HARDLY}: largest rotation {found} of overturning");
+                    return Some(format!("{HARDLY}: largest rotation {found} of overturning"));
                 }
                 format!(
                     "it rocks and stands{}: largest rotation {}{}{}",
@@ -217,13 +186,13 @@ impl Finding {
                 };
                 format!("without the vertical component it {does}{largest}")
             }
-            _ => String::new(),
-        }
+            _ => return None,
+        })
     }
 
     /// What a comparison one to one is worth.
-    fn comparison(&self) -> String {
-        match self {
+    fn comparison(&self) -> Option<String> {
+        Some(match self {
             // up to when it can be predicted the verdict tells, on what springs were judged the
             // accuracy
             Self::IllConditioned {
@@ -274,13 +243,13 @@ impl Finding {
                     cell(p90_ratio[1]),
                 )
             }
-            _ => String::new(),
-        }
+            _ => return None,
+        })
     }
 
     /// What the springs do not reach.
-    fn springs(&self) -> String {
-        match self {
+    fn springs(&self) -> Option<String> {
+        Some(match self {
             Self::AccuracyMissed { asked, .. } => {
                 format!(
                     "the accuracy asked for (history, NRMSE {}) was not reached",
@@ -318,13 +287,13 @@ impl Finding {
                 "springs are tuned for the structure without its dampers, tendon and friction"
                     .into()
             }
-            _ => String::new(),
-        }
+            _ => return None,
+        })
     }
 
     /// What the search did not do.
-    fn effort(&self) -> String {
-        match self {
+    fn effort(&self) -> Option<String> {
+        Some(match self {
             Self::SearchCut { by, not_done, stiffnesses, reached, asked } => {
                 let by = match by {
                     CutBy::Work => "the bound on work",
@@ -358,7 +327,7 @@ impl Finding {
                         left out"
                 )
             }
-            _ => String::new(),
-        }
+            _ => return None,
+        })
     }
 }

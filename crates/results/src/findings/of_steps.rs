@@ -106,8 +106,8 @@ impl fmt::Display for NotToBeUsed {
 
 impl Finding {
     /// Springs for a program with fixed time steps.
-    pub(super) fn program(&self) -> String {
-        match self {
+    pub(super) fn program(&self) -> Option<String> {
+        Some(match self {
             Self::ProgramStepTooLong { step_s, .. } => format!(
                 "steps of {} are too long for this structure: nothing is promised of its springs \
                     for them",
@@ -144,8 +144,8 @@ impl Finding {
                     one"
                 .into()
             }
-            _ => String::new(),
-        }
+            _ => return None,
+        })
     }
 
     /// Of springs for steps of one size.

@@ -14,8 +14,8 @@ fn told(changes: &[PeakChange]) -> [String; 4] {
 
 impl Finding {
     /// Which design forces hold.
-    pub(super) fn forces(&self) -> String {
-        match self {
+    pub(super) fn forces(&self) -> Option<String> {
+        Some(match self {
             Self::ForceWithheld {
                 force,
                 change: Some(change),
@@ -59,7 +59,7 @@ impl Finding {
                 listed(forces),
                 if forces.len() == 1 { "is" } else { "are" }
             ),
-            _ => String::new(),
-        }
+            _ => return None,
+        })
     }
 }

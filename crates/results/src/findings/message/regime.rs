@@ -9,8 +9,8 @@ const LIGHT: f64 = 0.5;
 
 impl Finding {
     /// Whether the models hold.
-    pub(super) fn regime(&self) -> String {
-        match self {
+    pub(super) fn regime(&self) -> Option<String> {
+        Some(match self {
             Self::Sliding { needed, time_s, available, press_over_weight } => {
                 let when =
                     time_s.map_or("in a landing".into(), |time| format!("at t = {}", s(time)));
@@ -56,7 +56,7 @@ impl Finding {
                     on(*model)
                 )
             }
-            _ => String::new(),
-        }
+            _ => return None,
+        })
     }
 }

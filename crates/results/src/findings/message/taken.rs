@@ -11,8 +11,8 @@ const LEAST_CHANGE: f64 = 0.01;
 
 impl Finding {
     /// What was taken, and what was not.
-    pub(super) fn taken(&self) -> String {
-        match self {
+    pub(super) fn taken(&self) -> Option<String> {
+        Some(match self {
             Self::VerticalLeftOut { vertical_g, overturns_s: Some(time), .. } => format!(
                 "with the vertical motion that is left out ({} g) it overturns at t = {} s",
                 significant(*vertical_g, 3),
@@ -80,7 +80,7 @@ impl Finding {
                 )
             }
 
-            _ => String::new(),
-        }
+            _ => return None,
+        })
     }
 }
