@@ -60,7 +60,7 @@ pub(crate) fn land<M: Mechanics>(
     landing: CornerSet,
     rule: &Rule,
 ) -> Option<Landed> {
-    let speed = landing.iter().map(|i| -at.rise(i, at.v, false)).fold(0.0, f64::max);
+    let speed = landing.iter().map(|i| -at.velocity(i, at.v)[1]).fold(0.0, f64::max);
     let good = |kept: CornerSet, after: &HeldMotion| {
         let pushed =
             |i: usize| rule.bound(kept, i) || after.force(i)[1] >= -ROUNDING * largest(after);
@@ -68,7 +68,7 @@ pub(crate) fn land<M: Mechanics>(
             && touching
                 .minus(kept)
                 .iter()
-                .all(|i| at.rise(i, &after.motion, false) >= -ROUNDING * speed)
+                .all(|i| at.velocity(i, &after.motion)[1] >= -ROUNDING * speed)
     };
     let tried = touching
         .subsets()
@@ -81,7 +81,7 @@ pub(crate) fn land<M: Mechanics>(
         let contact =
             CornerContact { held: touching.minus(landing), sliding: CornerSet::NONE.with(i) };
         let after = at.braked(contact)?;
-        let (slip, force) = (at.slip(i, &after.motion, false), after.force(i)[0]);
+        let (slip, force) = (at.velocity(i, &after.motion)[0], after.force(i)[0]);
         let good = good(contact.held, &after) && slip * force <= 0.0;
         let stopped = at.impact(CornerContact::held(contact.held.with(i)))?;
         let energy = at.mechanics.kinetic(at.q, at.v) - at.mechanics.kinetic(at.q, &stopped.motion);
@@ -102,7 +102,8 @@ pub(crate) fn land<M: Mechanics>(
     let afterwards = Configuration::new(at.mechanics, at.q, &after.motion)?;
     let pull = afterwards.accelerations(ground, CornerContact::held(kept))?.motion;
     let stays = |i: &usize| {
-        let (speed, pull) = (at.rise(*i, &after.motion, false), afterwards.rise(*i, &pull, true));
+        let (speed, pull) =
+            (at.velocity(*i, &after.motion)[1], afterwards.acceleration(*i, &pull)[1]);
         // would come back at once: an endless row of ever smaller hops ends here
         let back = pull < 0.0 && speed * speed <= -2.0 * pull * ON_GROUND;
         back || at.speed(*i, &after.motion) <= AT_REST
@@ -129,7 +130,7 @@ pub(crate) fn stay<M: Mechanics>(
 ) -> Option<(CornerContact, HeldMotion, bool)> {
     let on_footing =
         |i: usize, set: CornerSet| set.iter().any(|k| rule.footings[k] == rule.footings[i]);
-    let sinks = |i: &usize, held: &HeldMotion| at.rise(*i, &held.motion, true) < -ROUNDING_A;
+    let sinks = |i: &usize, held: &HeldMotion| at.acceleration(*i, &held.motion)[1] < -ROUNDING_A;
     // first without new sliding, then with
     for slips in [false, true] {
         for &kept in tried.iter().filter(|kept| rule.allows(**kept, resting)) {
@@ -146,7 +147,7 @@ pub(crate) fn stay<M: Mechanics>(
                 held = then;
                 // friction brakes
                 let driven = |i: usize| {
-                    at.slip(i, &held.motion, true) * held.force(i)[0].signum() > ROUNDING_A
+                    at.acceleration(i, &held.motion)[0] * held.force(i)[0].signum() > ROUNDING_A
                 };
                 if new.iter().any(driven) {
                     continue;

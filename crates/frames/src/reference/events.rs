@@ -49,7 +49,7 @@ impl<M: Mechanics> ReferenceWalk<'_, M> {
         let ReferenceState { q, v, .. } = &self.now.state;
         let singular = self.stop(Stop::Singular);
         let at = Configuration::new(self.mechanics, q, v).ok_or(singular)?;
-        let down = |i: &usize| *i == corner || at.rise(*i, v, false) < 0.0;
+        let down = |i: &usize| *i == corner || at.velocity(*i, v)[1] < 0.0;
         let was = self.contact;
         let there = |i: &usize| *i == corner || self.margin(*i, &self.now) <= 2.0 * ON_GROUND;
         let there: CornerSet = self.all.minus(was.all()).iter().filter(there).collect();
@@ -57,7 +57,7 @@ impl<M: Mechanics> ReferenceWalk<'_, M> {
         let touching = was.all().and(there);
         let Landed { velocity: mut after, held, sliding: skidding } =
             land(&at, self.ground(0.0), touching, landing, &self.rule()).ok_or(singular)?;
-        let slides = |&i: &usize| !held.contains(i) && at.rise(i, &after, false).abs() <= AT_REST;
+        let slides = |&i: &usize| !held.contains(i) && at.velocity(i, &after)[1].abs() <= AT_REST;
         self.contact = CornerContact { held, sliding: was.sliding.iter().filter(slides).collect() };
         after *= self.options.kept;
         let before = std::mem::replace(&mut self.now.state.v, after);

@@ -120,22 +120,22 @@ impl<'a, M: Mechanics> Configuration<'a, M> {
         })
     }
 
-    /// Vertical velocity or acceleration (with its bias) of a corner in a motion.
-    pub(crate) fn rise(&self, corner: usize, motion: &DVector<f64>, with_bias: bool) -> f64 {
+    /// Velocity of a corner, across and up, at a velocity of the structure.
+    pub fn velocity(&self, corner: usize, of: &DVector<f64>) -> [f64; 2] {
         let corner = self.mechanics.corner(corner, self.q, self.v);
-        corner.jacobian[1].dot(motion) + if with_bias { corner.bias[1] } else { 0.0 }
+        // no zero is a negative one
+        [0, 1].map(|k| corner.jacobian[k].dot(of) + 0.0)
     }
 
     /// Speed of a corner, the larger of its components, at a velocity of the structure.
-    pub(crate) fn speed(&self, corner: usize, velocity: &DVector<f64>) -> f64 {
-        let corner = self.mechanics.corner(corner, self.q, self.v);
-        corner.jacobian.iter().map(|row| row.dot(velocity).abs()).fold(0.0, f64::max)
+    pub(crate) fn speed(&self, corner: usize, of: &DVector<f64>) -> f64 {
+        self.velocity(corner, of).into_iter().map(f64::abs).fold(0.0, f64::max)
     }
 
-    /// Horizontal velocity or acceleration (with its bias) of a corner in a motion.
-    pub fn slip(&self, corner: usize, motion: &DVector<f64>, with_bias: bool) -> f64 {
+    /// Acceleration of a corner, across and up, at an acceleration of the structure.
+    pub(crate) fn acceleration(&self, corner: usize, of: &DVector<f64>) -> [f64; 2] {
         let corner = self.mechanics.corner(corner, self.q, self.v);
-        corner.jacobian[0].dot(motion) + if with_bias { corner.bias[0] } else { 0.0 }
+        [0, 1].map(|k| corner.jacobian[k].dot(of) + corner.bias[k])
     }
 
     /// Derivatives of the accelerations by q and q', but for what moves with M, G and gamma: none

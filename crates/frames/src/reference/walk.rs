@@ -204,7 +204,7 @@ impl<'a, M: Mechanics> ReferenceWalk<'a, M> {
         let at = Configuration::new(self.mechanics, q, v)?;
         let held = at.accelerations(ground, self.contact)?;
         let slid: f64 =
-            self.contact.sliding.iter().map(|i| -held.force(i)[0] * at.slip(i, v, false)).sum();
+            self.contact.sliding.iter().map(|i| -held.force(i)[0] * at.velocity(i, v)[0]).sum();
         let power =
             [self.mechanics.dissipation(q, v), self.mechanics.input_power(q, v, ground), slid];
         Some(Rates { a: held.motion, power, forces: held.forces })

@@ -79,7 +79,7 @@ fn assert_plastic(structure: &impl Mechanics, event: &ReferenceEvent, name: &str
         for i in sliding.iter() {
             // the ground brakes it, and would have to pull to stop it
             assert!(
-                at.slip(i, &braked.motion, false) * braked.force(i)[0] <= 0.0,
+                at.velocity(i, &braked.motion)[0] * braked.force(i)[0] <= 0.0,
                 "{name}: {event:?}"
             );
             let stopped = at.impact(CornerContact::held(event.held.with(i))).unwrap();
