@@ -171,13 +171,14 @@ impl Expected {
         Self::of_motion(motion, [samples, compared], *initial_z, width_sensitivity)
     }
 
-    /// The same of so many of its samples. It ends where the body has fallen over: another
-    /// program's would fall through the ground next, a little sooner or later than ours.
+    /// The same of so many of its samples.
     pub(crate) fn within(history: &History, width_sensitivity: f64, samples: usize) -> Self {
         Self::of_motion(&history.motion, [samples; 2], history.initial_z, width_sensitivity)
     }
 
-    /// The same of a motion from where it stands settled (m): samples followed, and compared.
+    /// The same of a motion from where it stands settled (m): samples followed, and compared. It
+    /// ends where the body has fallen over: another program's would fall through the ground next, a
+    /// little sooner or later than ours.
     pub(crate) fn of_motion(
         motion: &Motion,
         [samples, compared]: [usize; 2],

@@ -2,7 +2,7 @@
 //!
 //! Some histories of rocking hang on so little that two programs agree on them only if both work
 //! much more accurately than anyone needs. A deck's steps become finer where that is so
-//! (`export/model`).
+//! (`decks::model`).
 
 use crate::Parameters;
 use dynamics::fem::{Analysis, History};

@@ -30,13 +30,15 @@ const EARTHQUAKES: usize = 16;
 /// Earthquake-like motions that topple a structure, or cannot be foretold for it, are scaled down
 /// to so many times the acceleration that lifts it.
 const MILD: (f64, f64) = (1.2, 6.0);
-/// Motions of each suite that are looked at for them, so many at a time.
+/// Motions of each suite that are looked at for them.
 const LOOKED_AT: usize = 480;
-/// The same of the motions that decide between springs which these do not tell apart.
+/// So many of them at a time.
+const AT_A_TIME: usize = 8;
+/// Motions that decide between springs which these do not tell apart: followed, and looked at.
 const MORE: usize = 72;
 const MORE_LOOKED_AT: usize = 480;
-const AT_A_TIME: usize = 8;
-/// Seed of both by which a run chooses springs: not one that `tune validate` takes by itself.
+/// Seed of all motions by which a run chooses springs: not one that `tune validate` takes by
+/// itself.
 pub const SEED: u64 = 1940;
 
 /// All motions that springs of a body are judged on.

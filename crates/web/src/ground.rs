@@ -87,7 +87,8 @@ const AMPLITUDES: (f64, f64) = (0.001, 10.0);
 /// Periods (s).
 const PERIODS: (f64, f64) = (0.05, 20.0);
 
-/// Time step of a pulse (s): a hundredth of its period, rounded to a power of ten or half of one.
+/// Time step of a pulse (s): a hundredth of its period, rounded down to 1, 2 or 5 times a power of
+/// ten, from 0.5 ms to 0.1 s.
 pub(crate) fn pulse_step(period_s: f64) -> f64 {
     let asked = period_s / TO_A_PERIOD;
     [0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0005]
@@ -96,6 +97,7 @@ pub(crate) fn pulse_step(period_s: f64) -> f64 {
         .unwrap_or(0.0005)
 }
 
+/// The file of a pulse: its amplitude (g) and period (s), then a line a sample.
 pub(crate) fn pulse(amplitude_g: f64, period_s: f64) -> Result<String, WebError> {
     for (name, value, (least, most), unit) in
         [("amplitude", amplitude_g, AMPLITUDES, "g"), ("period", period_s, PERIODS, "s")]
