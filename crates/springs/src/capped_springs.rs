@@ -9,6 +9,7 @@
 use std::f64::consts::TAU;
 
 use super::{
+    SearchProgress,
     descent::{LeastSquares, descend},
     landing_simulation::{Criterion, WholeModel},
     paper_procedure::outer::Bracket,
@@ -157,7 +158,7 @@ pub fn with_restitution(
     restitution: f64,
     bracket: Bracket,
     effort: &Effort,
-    progress: &(dyn Fn(usize, usize, f64) + Sync),
+    progress: SearchProgress,
 ) -> Option<Springs<Design<f64>>> {
     let objective =
         LandingsAndUplifts::new(body, restitution, (bracket, Criterion::Energy), effort);

@@ -9,7 +9,7 @@
 //!
 //! The accuracy is that of rotations against the reference (NRMSE, median); sways may have five
 //! times as much, and so may one history in ten. Or it is that of peaks: the largest displacement,
-//! drift, uplift and forces of columns (`elastic::peaks`), all alike; one history in ten may have
+//! drift, uplift and forces of columns (`frames::peaks`), all alike; one history in ten may have
 //! five times as much. Forces are compared only then, for they need a second history of every
 //! motion, on springs at 4 Omega_n.
 
@@ -29,7 +29,7 @@ use self::{
     suite::{ElasticSuite, Measured},
     trial::ElasticTrial,
 };
-use super::ladder::{DECADE, Ladder, best};
+use super::ladder::{DECADE, Ladder, RungProgress, best};
 use cases::{ACCURACY, Asked, PEAKS, Yardstick};
 use dynamics::{
     effort::{CutBy, Effort},
@@ -136,7 +136,7 @@ pub fn tune_within(
     ElasticAsked { error: asked, most_hz, program }: ElasticAsked,
     record: Option<(&Record, Reference)>,
     effort: &Effort,
-    progress: &dyn Fn(usize, f64),
+    progress: RungProgress,
 ) -> Result<ElasticTuned, ElasticTuneError> {
     checked(asked)?;
     let standing = stand(model).ok_or(ElasticTuneError::Falls)?;
@@ -257,7 +257,7 @@ fn search(
     springs: impl Fn(i64, f64) -> CornerSprings,
     measure: &dyn Fn(&CornerSprings) -> Measured,
     effort: &Effort,
-    progress: &dyn Fn(usize, f64),
+    progress: RungProgress,
 ) -> ElasticRung {
     let allowed = asked.times(MARGIN);
     let over = |(_, measured): &(CornerSprings, Measured)| measured.over(allowed);

@@ -10,6 +10,7 @@ use std::f64::consts::TAU;
 use parallel::join;
 
 use super::{
+    SearchProgress,
     fixed_steps::ProgramSprings,
     paper_procedure::outer::{self, Benchmark},
     stiffness_search::{Rung, Tuned},
@@ -83,10 +84,7 @@ impl Job {
     /// # Errors
     /// No springs that settle as little as asked for; for the paper's procedure, a record that does
     /// not lift the structure.
-    pub fn new(
-        case: &Case,
-        progress: &(dyn Fn(usize, usize, f64) + Sync),
-    ) -> Result<Self, JobError> {
+    pub fn new(case: &Case, progress: SearchProgress) -> Result<Self, JobError> {
         Self::within(case, &Effort::of(MOST_WORK, StopSignal::default()), progress)
     }
 
@@ -97,7 +95,7 @@ impl Job {
     pub fn within(
         case: &Case,
         effort: &Effort,
-        progress: &(dyn Fn(usize, usize, f64) + Sync),
+        progress: SearchProgress,
     ) -> Result<Self, JobError> {
         let record = case.record.truncated(case.duration_s);
         if record.len() < 2 {
@@ -176,10 +174,7 @@ struct SearchedSprings {
 
 impl SearchedSprings {
     /// By the design from the geometry, with the paper's procedure at the same Omega_n beside it.
-    fn by_landing(
-        design: &LandingDesign,
-        progress: &(dyn Fn(usize, usize, f64) + Sync),
-    ) -> Result<Self, JobError> {
+    fn by_landing(design: &LandingDesign, progress: SearchProgress) -> Result<Self, JobError> {
         let &LandingDesign { case, body, suites, procedure, effort } = design;
         // what the one spends does not stop the other: which is first hangs on the threads
         let rest = effort.share(1);
@@ -213,7 +208,7 @@ impl SearchedSprings {
         procedure: &Procedure,
         suites: &Suites,
         effort: &Effort,
-        progress: &(dyn Fn(usize, usize, f64) + Sync),
+        progress: SearchProgress,
     ) -> Result<Self, JobError> {
         let (tuned, capped, paper) = procedure.tune(suites, progress)?;
         let program =

@@ -10,6 +10,9 @@ pub(super) const DECADE: f64 = 10.0;
 /// Steps of a search before it takes what it has found.
 const MOST_STEPS: usize = 12;
 
+/// What is told of a search: the rungs judged, and the least error so far.
+pub(super) type RungProgress<'a> = &'a dyn Fn(usize, f64);
+
 /// The ladder of springs that may be chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Ladder {
@@ -31,7 +34,7 @@ impl Ladder {
         mut judge: impl FnMut(i64, &BTreeMap<i64, T>) -> Option<T>,
         over: impl Fn(&T) -> Option<f64>,
         effort: &Effort,
-        progress: &dyn Fn(usize, f64),
+        progress: RungProgress,
     ) -> Searched<T> {
         let mut seen = BTreeMap::new();
         let found = seek(self, &mut |i| {

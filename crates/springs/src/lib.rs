@@ -18,7 +18,7 @@
 pub mod assessment;
 pub mod at_once;
 pub mod capped_springs;
-/// CMA-ES, which `stiffness_search` walks by.
+/// CMA-ES, which `search` walks by.
 mod cma_es;
 pub mod descent;
 pub mod elastic;
@@ -30,3 +30,6 @@ pub mod paper_procedure;
 mod search;
 pub mod stiffness_search;
 pub mod suite;
+
+/// What is told of a search: what is done, of how much (0 if unknown), and the least error so far.
+pub type SearchProgress<'a> = &'a (dyn Fn(usize, usize, f64) + Sync);

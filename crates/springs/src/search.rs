@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
-use super::cma_es::CmaEs;
+use super::{SearchProgress, cma_es::CmaEs};
 use dynamics::effort::Effort;
 
 /// Points of a generation.
@@ -36,7 +36,7 @@ pub(super) fn search(
     evaluations: usize,
     enough: f64,
     effort: &Effort,
-    progress: &(dyn Fn(usize, usize, f64) + Sync),
+    progress: SearchProgress,
 ) -> Option<Vec<f64>> {
     let mut random = ChaCha8Rng::seed_from_u64(SEED);
     let counted = AtomicUsize::new(0);

@@ -10,7 +10,7 @@
 use std::collections::BTreeMap;
 
 use super::{
-    ladder::{DECADE, Ladder, best},
+    ladder::{DECADE, Ladder, RungProgress, best},
     suite::{JudgedOn, MeasuredErrors, Suites},
 };
 use cases::Asked;
@@ -35,6 +35,9 @@ const COARSE: f64 = 1e-3;
 /// Error of a softer rung on a suite, over what is allowed, below which a stiffer one is not judged
 /// on it again: errors fall with stiffness but for bumps of less than a factor of two.
 const LITTLE: f64 = 0.3;
+
+/// The inner design at an Omega_n/p, if it has one.
+pub(crate) type DesignOf<'a> = &'a dyn Fn(f64) -> Option<Springs<Design<f64>>>;
 
 /// Springs of one Omega_n/p and what was measured of them.
 #[derive(Clone, Copy, Debug)]
@@ -65,8 +68,8 @@ pub(crate) fn tune(
     mass: f64,
     asked: Asked,
     ((softest, stiffest), effort): ((f64, f64), &Effort),
-    springs: &dyn Fn(f64) -> Option<Springs<Design<f64>>>,
-    progress: &dyn Fn(usize, f64),
+    springs: DesignOf,
+    progress: RungProgress,
 ) -> Option<Tuned> {
     let (first, last) = (rung_from(softest), rung_up_to(stiffest));
     if first > last {
@@ -108,7 +111,7 @@ pub(crate) fn tune(
 }
 
 impl Rung {
-    fn unmeasured(i: i64, springs: &dyn Fn(f64) -> Option<Springs<Design<f64>>>) -> Option<Self> {
+    fn unmeasured(i: i64, springs: DesignOf) -> Option<Self> {
         let stiffness = stiffness(i);
         let errors = MeasuredErrors::default();
         Some(Self { stiffness, springs: springs(stiffness)?, errors })

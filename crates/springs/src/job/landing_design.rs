@@ -5,17 +5,15 @@ use std::{cmp::Ordering, f64::consts::TAU};
 
 use super::{CEILING_HZ, JobError, Procedure, evaluate};
 use crate::{
-    at_once, capped_springs, landing_simulation,
+    SearchProgress, at_once, capped_springs,
+    ladder::RungProgress,
+    landing_simulation,
     paper_procedure::outer::Bracket,
-    stiffness_search::{self, Tuned},
+    stiffness_search::{self, DesignOf, Tuned},
     suite::Suites,
 };
 use cases::{Case, Yardstick};
-use dynamics::{
-    effort::Effort,
-    fem::Control,
-    spring::{Design, Springs},
-};
+use dynamics::{effort::Effort, fem::Control};
 use landing::design::{Geometry, springs_at_stiffness};
 use rocking::structure::Body;
 
@@ -37,10 +35,7 @@ pub(super) struct LandingDesign<'a> {
 
 impl LandingDesign<'_> {
     /// The outer loop, and whether a cap decided.
-    pub(super) fn tune(
-        &self,
-        progress: &(dyn Fn(usize, usize, f64) + Sync),
-    ) -> Result<(Tuned, bool), JobError> {
+    pub(super) fn tune(&self, progress: SearchProgress) -> Result<(Tuned, bool), JobError> {
         let tuning = &self.case.tuning;
         let asked = tuning.asked();
         if landing_simulation::differs_from_housner(&self.body, self.case.restitution) {
@@ -51,9 +46,7 @@ impl LandingDesign<'_> {
         let said = |rungs: usize, over: f64| {
             progress(rungs, 0, over * stiffness_search::MARGIN * asked.error)
         };
-        let ladder = |stiffest: f64, springs: &dyn Fn(f64) -> Option<Springs<Design<f64>>>| {
-            self.ladder(stiffest, springs, &said)
-        };
+        let ladder = |stiffest: f64, springs: DesignOf| self.ladder(stiffest, springs, &said);
         let Some(cap) = tuning.max_omega_hz else {
             let stiffest = stiffness_search::last_rung(TAU * CEILING_HZ / p);
             self.settles_at(stiffest)?;
@@ -91,10 +84,7 @@ impl LandingDesign<'_> {
     }
 
     /// Springs of a restitution that is not equation 2's, within the cap; whether it was given.
-    fn bouncing(
-        &self,
-        progress: &(dyn Fn(usize, usize, f64) + Sync),
-    ) -> Result<(Tuned, bool), JobError> {
+    fn bouncing(&self, progress: SearchProgress) -> Result<(Tuned, bool), JobError> {
         let tuning = &self.case.tuning;
         let bracket = self.bracket(tuning.max_omega_hz.unwrap_or(BOUNCING_HZ))?;
         let springs = capped_springs::with_restitution(
@@ -112,12 +102,7 @@ impl LandingDesign<'_> {
     /// The ladder up to an Omega_n/p, from where landings hold; if none of those rungs does, the
     /// better of that and of the whole ladder. `springs` are those of an Omega_n/p, `said` is told
     /// the rungs judged and how far the least error is over what is asked.
-    fn ladder(
-        &self,
-        stiffest: f64,
-        springs: &dyn Fn(f64) -> Option<Springs<Design<f64>>>,
-        said: &dyn Fn(usize, f64),
-    ) -> Option<Tuned> {
+    fn ladder(&self, stiffest: f64, springs: DesignOf, said: RungProgress) -> Option<Tuned> {
         let asked = self.case.tuning.asked();
         let from = |softest: f64| {
             let range = ((softest, stiffest), self.effort);
@@ -185,11 +170,7 @@ impl LandingDesign<'_> {
     /// The springs within a cap (Hz) that follow best what is judged on, of those followed down
     /// from the stiff limit and those of the paper's procedure: so soft, neither is the better one
     /// for every body.
-    fn followed(
-        &self,
-        cap: f64,
-        progress: &(dyn Fn(usize, usize, f64) + Sync),
-    ) -> Result<Tuned, JobError> {
+    fn followed(&self, cap: f64, progress: SearchProgress) -> Result<Tuned, JobError> {
         let mut found = capped_springs::follow(
             &self.body,
             self.case.restitution,

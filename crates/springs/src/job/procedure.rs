@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use super::{CEILING_HZ, JobError, evaluate};
 use crate::{
+    SearchProgress,
     paper_procedure::outer::{self, Benchmark, Bracket, Refinement},
     stiffness_search::{self, Tuned},
     suite::Suites,
@@ -31,11 +32,7 @@ impl<'a> Procedure<'a> {
     }
 
     /// Springs up to this Omega_n (Hz), whatever they settle.
-    pub(crate) fn at(
-        &self,
-        max_hz: f64,
-        progress: &(dyn Fn(usize, usize, f64) + Sync),
-    ) -> Option<outer::OmegaSearch> {
+    pub(crate) fn at(&self, max_hz: f64, progress: SearchProgress) -> Option<outer::OmegaSearch> {
         let samples = self.case.tuning.candidates;
         let sampled = self.sampled(max_hz, (samples, &Refinement::SOUGHT), progress)?;
         sampled.refined(self.benchmark, &Refinement::SOUGHT, progress)
@@ -46,7 +43,7 @@ impl<'a> Procedure<'a> {
     pub(crate) fn sampled_beside(
         &self,
         max_hz: f64,
-        progress: &(dyn Fn(usize, usize, f64) + Sync),
+        progress: SearchProgress,
     ) -> Option<outer::Sampled> {
         self.sampled(max_hz, (0, &Refinement::COMPARED), progress)
     }
@@ -55,7 +52,7 @@ impl<'a> Procedure<'a> {
     pub(crate) fn refined_beside(
         &self,
         sampled: outer::Sampled,
-        progress: &(dyn Fn(usize, usize, f64) + Sync),
+        progress: SearchProgress,
     ) -> Option<outer::OmegaSearch> {
         sampled.refined(self.benchmark, &Refinement::COMPARED, progress)
     }
@@ -64,7 +61,7 @@ impl<'a> Procedure<'a> {
         &self,
         max_hz: f64,
         (samples, refinement): (usize, &Refinement),
-        progress: &(dyn Fn(usize, usize, f64) + Sync),
+        progress: SearchProgress,
     ) -> Option<outer::Sampled> {
         let bracket = Bracket { max_hz, max_settlement: self.case.tuning.max_settlement_m };
         let least = self.least_settlement(&bracket);
@@ -84,7 +81,7 @@ impl<'a> Procedure<'a> {
     pub(crate) fn tune(
         &self,
         suites: &Suites,
-        progress: &(dyn Fn(usize, usize, f64) + Sync),
+        progress: SearchProgress,
     ) -> Result<(Tuned, bool, Option<outer::OmegaSearch>), JobError> {
         let (tuning, body, effort) =
             (&self.case.tuning, &self.benchmark.body, self.benchmark.effort);

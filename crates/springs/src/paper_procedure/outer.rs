@@ -18,6 +18,7 @@ mod tests;
 pub use refinement::Refinement;
 use running_error::RunningError;
 
+use crate::SearchProgress;
 use dynamics::{
     effort::Effort,
     fem::{Analysis, Control, Finish, HistoryOutcome, histories},
@@ -269,7 +270,7 @@ impl Sampled {
         pairs: &[Pair],
         samples: usize,
         refinement: &Refinement,
-        progress: &(dyn Fn(usize, usize, f64) + Sync),
+        progress: SearchProgress,
     ) -> Option<Self> {
         if pairs.is_empty() {
             return None;
@@ -293,7 +294,7 @@ impl Sampled {
         self,
         benchmark: &Benchmark,
         refinement: &Refinement,
-        progress: &(dyn Fn(usize, usize, f64) + Sync),
+        progress: SearchProgress,
     ) -> Option<OmegaSearch> {
         let tuned = refinement.best_of(benchmark, &self.plan, self.candidates)?;
         progress(tuned.candidates.len(), tuned.candidates.len(), tuned.best.error);
