@@ -15,15 +15,18 @@ use springs::{
 };
 use validation::PREDICTABLE;
 
-/// A structure's case without a record that matters, at an accuracy, within a cap.
-fn tuned(structure: Structure, accuracy: f64, cap: Option<f64>) -> Job {
-    let mut case = Case {
-        structure,
-        restitution: structure.body::<f64>().restitution(),
-        ..Case::paper().unwrap()
-    };
+/// A structure's case without a record that matters.
+fn case_of(structure: Structure) -> Case {
+    let restitution = structure.body::<f64>().restitution();
+    let mut case = Case { structure, restitution, ..Case::paper().unwrap() };
     case.record = case.record.truncated(5.0);
     case.duration_s = case.record.duration();
+    case
+}
+
+/// Its springs at an accuracy, within a cap.
+fn tuned(structure: Structure, accuracy: f64, cap: Option<f64>) -> Job {
+    let mut case = case_of(structure);
     (case.tuning.accuracy, case.tuning.max_omega_hz) = (accuracy, cap);
     Job::new(&case, &|_, _, _| {}).unwrap()
 }
@@ -79,13 +82,7 @@ fn springs_by_peaks_are_no_stiffer_than_those_by_histories_of_the_same_error() {
         Structure::block(2.0, 0.4, 1e3).unwrap(),
         Structure::block(0.6, 0.6 * f64::tan(0.25), 1e3).unwrap(),
     ] {
-        let mut case = Case {
-            structure,
-            restitution: structure.body::<f64>().restitution(),
-            ..Case::paper().unwrap()
-        };
-        case.record = case.record.truncated(5.0);
-        case.duration_s = case.record.duration();
+        let mut case = case_of(structure);
         case.tuning.accuracy = 0.02;
         let by_histories = Job::new(&case, &|_, _, _| {}).unwrap();
         case.tuning.peaks = Some(0.02);

@@ -1,7 +1,11 @@
 //! Against the nonsmooth reference, event-driven with plastic landings, of the same frame.
 
 use cases::{Asked, Yardstick};
-use dynamics::{effort::Effort, fem::Control};
+use dynamics::{
+    effort::Effort,
+    fem::Control,
+    spring::{Chain, Springs},
+};
 use frames::{
     Mechanics,
     answer::Reference,
@@ -53,6 +57,22 @@ fn errors(
     ]
 }
 
+/// The same on springs of two kinds, over 20 s of El Centro.
+fn el_centro_errors(
+    frame: &Frame,
+    of: (Base, usize),
+    springs: [Vec<Springs<Chain>>; 2],
+) -> [[f64; 2]; 2] {
+    let (accel, still) = (el_centro(2001), DVector::zeros(frame.size()));
+    let ground = GroundAcceleration::horizontal(0.01, &accel);
+    let rest = at_rest(frame, &still, CornerSet::NONE.with(0).with(1), &[]).unwrap();
+    let reference = rock(frame, ground, (&rest, &still), &ReferenceOptions::default());
+    springs.map(|springs| {
+        let on = ElasticAnalysis::new(frame, &springs, ElasticStart::Standing, 0.01, &accel);
+        errors(frame, of, &on.simulate().unwrap(), &reference)
+    })
+}
+
 /// Let go at half of alpha, on springs of 10 kHz of what lands: a light, a moderate, a heavy
 /// footing.
 #[test]
@@ -97,23 +117,8 @@ fn free_rocking_follows_the_reference() {
 #[test]
 fn el_centro_follows_the_reference() {
     let frame = pier(&Numbers { footing: 6e4, ..MODERATE }).layout().frame().unwrap();
-    let accel = el_centro(2001);
-    let rest = at_rest(&frame, &DVector::zeros(frame.size()), CornerSet::NONE.with(0).with(1), &[])
-        .unwrap();
-    let start = (&rest, &DVector::zeros(frame.size()));
-    let reference = rock(
-        &frame,
-        GroundAcceleration::horizontal(0.01, &accel),
-        start,
-        &ReferenceOptions::default(),
-    );
-    let [soft, stiff] = [2.5e3, 4e4].map(|hz| {
-        let springs = springs(&frame, hz, 20.0);
-        let history = ElasticAnalysis::new(&frame, &springs, ElasticStart::Standing, 0.01, &accel)
-            .simulate()
-            .unwrap();
-        errors(&frame, (Base::Footing(0), 1), &history, &reference)
-    });
+    let on = [2.5e3, 4e4].map(|hz| springs(&frame, hz, 20.0));
+    let [soft, stiff] = el_centro_errors(&frame, (Base::Footing(0), 1), on);
     assert!(stiff[0] < 3e-3 && stiff[1] < 1e-2, "{stiff:?}");
     assert!(4.0 * stiff[0] < soft[0] && 4.0 * stiff[1] < soft[1], "{soft:?} {stiff:?}");
 }
@@ -137,23 +142,8 @@ fn legs_that_give_way_follow_the_reference() {
     let leg = StraightMember { section, elements: 1 };
     let frame =
         LeggedFrame { mass, inertia, height, width, foot_mass: 1e4, leg }.layout().frame().unwrap();
-    let accel = el_centro(2001);
-    let rest = at_rest(&frame, &DVector::zeros(frame.size()), CornerSet::NONE.with(0).with(1), &[])
-        .unwrap();
-    let start = (&rest, &DVector::zeros(frame.size()));
-    let reference = rock(
-        &frame,
-        GroundAcceleration::horizontal(0.01, &accel),
-        start,
-        &ReferenceOptions::default(),
-    );
-    let [soft, stiff] = [4.0, 20.0].map(|ratio| {
-        let springs = springs(&frame, 1e4, ratio);
-        let history = ElasticAnalysis::new(&frame, &springs, ElasticStart::Standing, 0.01, &accel)
-            .simulate()
-            .unwrap();
-        errors(&frame, (Base::Feet, 2), &history, &reference)
-    });
+    let on = [4.0, 20.0].map(|ratio| springs(&frame, 1e4, ratio));
+    let [soft, stiff] = el_centro_errors(&frame, (Base::Feet, 2), on);
     assert!(stiff[0] < 1e-2 && stiff[1] < 1e-2, "{stiff:?}");
     assert!(soft[0] > 5e-2, "{soft:?}");
 }
