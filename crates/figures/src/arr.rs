@@ -11,7 +11,7 @@ use super::mark::{self, Mark, MarkShape};
 use super::number::{brief, short};
 use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
-use super::style::{self, GREY, NUMBER, Pen, SKY, WIDTH};
+use super::style::{self, GREY, NUMBER, Pen, SIDES, SKY};
 use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("arr");
@@ -107,7 +107,7 @@ pub fn draw(data: &ResponseFigure<'_>) -> Result<Sheet, FigureError> {
         let neutral = Mark::new(MarkShape::Disc, 9.0, GREY);
         entries.push(LegendEntry::mark("active, with multiplier", neutral));
     }
-    let (left, right) = (150.0, WIDTH as f64 - 40.0);
+    let (left, right) = SIDES;
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
     let panel = Panel {
         frame: PanelFrame { left, top, right, bottom: top + 750.0 },

@@ -10,7 +10,7 @@ use super::mark::{Mark, MarkShape};
 use super::number::short;
 use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
-use super::style::{BLUE, NUMBER, PALE, Pen, VERMILLION, WIDTH};
+use super::style::{BLUE, NUMBER, PALE, Pen, SIDES, VERMILLION};
 use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("candidates");
@@ -80,7 +80,7 @@ pub fn draw(data: &CandidatesFigure<'_>) -> Result<Sheet, FigureError> {
             infinite(),
         ));
     }
-    let (left, right, gap) = (150.0, WIDTH as f64 - 40.0, 110.0);
+    let ((left, right), gap) = (SIDES, 110.0);
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
     let middle = (left + right) / 2.0;
     let y = Scale::log_around(errors.iter().copied(), 10.0);

@@ -5,8 +5,8 @@ use super::legend::{self, LegendEntry};
 use super::number::{brief, prefix, short};
 use super::panel::{Panel, PanelFrame};
 use super::plot::EventMark;
-use super::scale::Scale;
-use super::style::{self, BLUE, GREY, Pen, VERMILLION, WIDTH};
+use super::scale::{Scale, around_zero};
+use super::style::{self, BLUE, GREY, Pen, SIDES, VERMILLION};
 use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("contact");
@@ -66,7 +66,7 @@ pub fn draw(data: &ContactFigure<'_>) -> Result<Sheet, FigureError> {
         ));
     }
     entries.extend(data.end.map(|end| LegendEntry::line(end.text, ending())));
-    let (left, right) = (150.0, WIDTH as f64 - 40.0);
+    let (left, right) = SIDES;
     // room for a remark
     let top = legend::header(&mut canvas, data.title, &entries, left, right) + 16.0;
     let middle = top + 450.0;
@@ -120,8 +120,7 @@ impl ForceDirection<'_> {
             (sizes[sizes.len() - 1], BEYOND * usual.max(0.7 * self.weight.unwrap_or(0.0)));
         let end = if usual > 0.0 && most > 1.5 * end { end } else { most };
         let all = self.forces.iter().flat_map(|force| force.iter().copied()).chain(self.weight);
-        let (low, high) =
-            all.fold((0.0_f64, 0.0_f64), |(low, high), force| (low.min(force), high.max(force)));
+        let (low, high) = around_zero(all);
         let end = end.max(self.weight.unwrap_or(0.0));
         (low.max(-end), high.min(end), (most > end).then_some(most))
     }

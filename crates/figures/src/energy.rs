@@ -8,8 +8,8 @@ use super::lettering::Lettering;
 use super::number::{prefix, short};
 use super::panel::{Panel, PanelFrame};
 use super::plot::EventMark;
-use super::scale::Scale;
-use super::style::{self, BLACK, BLUE, GREEN, NUMBER, Pen, VERMILLION, WIDTH};
+use super::scale::{Scale, around_zero};
+use super::style::{self, BLACK, BLUE, GREEN, NUMBER, Pen, SIDES, VERMILLION};
 use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("energy");
@@ -56,13 +56,12 @@ pub fn draw(data: &EnergyFigure<'_>) -> Result<Sheet, FigureError> {
     entries.push(LegendEntry::line("residual", rest));
     let ending = Pen::new(BLACK, 2.4).dashed();
     entries.extend(data.end.map(|end| LegendEntry::line(end.text, ending)));
-    let (left, right) = (150.0, WIDTH as f64 - 40.0);
+    let (left, right) = SIDES;
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
     let x = Scale::linear(data.t[0], data.t[n - 1]);
 
     let all = accounts.iter().flat_map(|(_, energy)| energy.iter().copied());
-    let (low, high) =
-        all.fold((0.0_f64, 0.0_f64), |(low, high), energy| (low.min(energy), high.max(energy)));
+    let (low, high) = around_zero(all);
     let (unit, letter) = prefix(high.max(-low));
     let room = 0.06 * (high - low) / unit;
     let y = Scale::linear(if low < 0.0 { low / unit - room } else { 0.0 }, high / unit + room);

@@ -8,7 +8,7 @@ use super::legend::{self, LegendEntry};
 use super::mark::{Mark, MarkShape};
 use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
-use super::style::{self, Pen, WIDTH};
+use super::style::{self, Pen, SIDES};
 use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("fragility");
@@ -77,21 +77,13 @@ pub fn draw(data: &FragilityFigure<'_>) -> Result<Sheet, FigureError> {
         .enumerate()
         .map(|(i, name)| LegendEntry::both(name.as_str(), pen(i), dot(i)))
         .collect();
-    let (left, right) = (150.0, WIDTH as f64 - 40.0);
+    let (left, right) = SIDES;
     let mut canvas = Canvas::default();
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
     let height = top + rows as f64 * (HEIGHT + GAP);
-    let middle = 0.5 * (left + right);
     for (i, measure) in data.measures.iter().enumerate() {
-        let top = top + (i / 2) as f64 * (HEIGHT + GAP);
-        let (from, to) = if i % 2 == 0 { (left, middle - 40.0) } else { (middle + 75.0, right) };
-        one(
-            &mut canvas,
-            data,
-            measure,
-            PanelFrame { left: from, top, right: to, bottom: top + HEIGHT },
-            i % 2 == 0,
-        );
+        let frame = PanelFrame::of_rows(i, 2, top, (HEIGHT, GAP));
+        one(&mut canvas, data, measure, frame, i % 2 == 0);
     }
     canvas.finish(height)
 }

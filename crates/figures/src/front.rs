@@ -9,7 +9,7 @@ use super::lettering::Lettering;
 use super::mark::{self, Mark};
 use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
-use super::style::{self, BLACK, GREY, NUMBER, Pen, TEXT, WIDTH};
+use super::style::{self, BLACK, GREY, NUMBER, Pen, SIDES, TEXT};
 use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("front");
@@ -80,7 +80,7 @@ pub fn draw(data: &FrontFigure<'_>) -> Result<Sheet, FigureError> {
         .collect();
     entries.push(LegendEntry::line("delivered", upright()));
     entries.push(LegendEntry::line("accuracy asked for", level()));
-    let (left, right) = (150.0, WIDTH as f64 - 40.0);
+    let (left, right) = SIDES;
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
     let frequencies =
         data.series.iter().flat_map(|s| s.omega_n_hz).copied().chain([data.chosen_hz]);

@@ -11,7 +11,7 @@ use super::mark::{Mark, MarkShape};
 use super::number::{prefix, short};
 use super::panel::{Panel, PanelFrame, ROW};
 use super::plot::{self, EventMark};
-use super::scale::Scale;
+use super::scale::{Scale, around_zero};
 use super::style::{self, BLACK, NUMBER, Pen, WIDTH};
 use super::{Check, FigureError, Sheet};
 
@@ -150,7 +150,7 @@ fn bounds<'a>(t: &[f64], traces: &[Drawn<'a>], of: fn(&Trace<'a>) -> &'a [f64]) 
             let n = if all { trace.u.len() } else { trace.standing(t) };
             of(trace)[..n].iter()
         });
-        values.fold((0.0_f64, 0.0_f64), |(low, high), &x| (low.min(x), high.max(x)))
+        around_zero(values.copied())
     };
     let ((low, mut high), (least, mut most)) = (range(false), range(true));
     // what is smaller is rounding, and not to be magnified
@@ -251,8 +251,7 @@ fn differences(canvas: &mut Canvas, data: &HistoryFigure<'_>, x: Scale, frame: P
         .iter()
         .map(|other| other.u.iter().zip(data.reference.u).map(|(a, b)| (a - b) / 1e-3).collect())
         .collect();
-    let all = differences.iter().flatten();
-    let (low, high) = all.fold((0.0_f64, 0.0_f64), |(low, high), &x| (low.min(x), high.max(x)));
+    let (low, high) = around_zero(differences.iter().flatten().copied());
     let size = high - low;
     let panel = Panel { frame, x, y: Scale::linear(low - 0.08 * size, high + 0.08 * size) };
     let label = format!("Δu to {} [mm]", data.reference.label);

@@ -6,7 +6,7 @@ use super::canvas::Canvas;
 use super::legend::{self, LegendEntry};
 use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
-use super::style::{self, GREY, PALE, Pen, WIDTH};
+use super::style::{self, GREY, PALE, Pen, SIDES};
 use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("ida");
@@ -60,17 +60,13 @@ pub fn draw(data: &IdaFigure<'_>) -> Result<Sheet, FigureError> {
     }
     let mut entries = vec![LegendEntry::line("single records", Pen::new(PALE, 1.5))];
     entries.extend(SHARES.iter().enumerate().map(|(i, share)| LegendEntry::line(*share, pen(i))));
-    let (left, right) = (150.0, WIDTH as f64 - 40.0);
-    let rows = data.subjects.len().div_ceil(2);
+    let (left, right) = SIDES;
+    let columns = data.subjects.len().min(2);
+    let rows = data.subjects.len().div_ceil(columns);
     let mut canvas = Canvas::default();
     let top = legend::header(&mut canvas, data.title, &entries, left, right) + 20.0;
-    let middle = 0.5 * (left + right);
     for (i, subject) in data.subjects.iter().enumerate() {
-        let top = top + (i / 2) as f64 * (HEIGHT + GAP);
-        let (from, to) = if i % 2 == 0 { (left, middle - 40.0) } else { (middle + 75.0, right) };
-        // one structure has the whole width
-        let to = if data.subjects.len() == 1 { right } else { to };
-        let frame = PanelFrame { left: from, top, right: to, bottom: top + HEIGHT };
+        let frame = PanelFrame::of_rows(i, columns, top, (HEIGHT, GAP));
         let panel = Panel { frame, x: levels(subject), y: peaks(subject) };
         panel.axes(
             &mut canvas,

@@ -7,7 +7,7 @@ use super::canvas::Canvas;
 use super::legend::{self, LegendEntry};
 use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
-use super::style::{self, BLACK, Pen, WIDTH};
+use super::style::{self, BLACK, Pen, SIDES};
 use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("overturning");
@@ -71,25 +71,14 @@ pub fn draw(data: &OverturningFigure<'_>) -> Result<Sheet, FigureError> {
         .map(|(i, name)| LegendEntry::patch(*name, colour(i).mix(0.8)))
         .collect();
     entries.push(LegendEntry::line("lifts the body", lift()));
-    let (left, right) = (150.0, WIDTH as f64 - 40.0);
-    let columns = if data.spectra.len() == 1 { 1 } else { 2 };
+    let (left, right) = SIDES;
+    let columns = data.spectra.len().min(2);
     let rows = data.spectra.len().div_ceil(columns);
     let mut canvas = Canvas::default();
     let top = legend::header(&mut canvas, data.title, &entries, left, right) + 20.0;
-    let middle = 0.5 * (left + right);
     for (i, spectrum) in data.spectra.iter().enumerate() {
-        let top = top + (i / columns) as f64 * (HEIGHT + GAP);
-        let (from, to) = match (columns, i % 2) {
-            (1, _) => (left, right),
-            (_, 0) => (left, middle - 40.0),
-            _ => (middle + 75.0, right),
-        };
-        one(
-            &mut canvas,
-            data,
-            spectrum,
-            PanelFrame { left: from, top, right: to, bottom: top + HEIGHT },
-        );
+        let frame = PanelFrame::of_rows(i, columns, top, (HEIGHT, GAP));
+        one(&mut canvas, data, spectrum, frame);
     }
     canvas.finish(top + rows as f64 * (HEIGHT + GAP))
 }

@@ -7,7 +7,7 @@ use super::lettering::Lettering;
 use super::plot::{EventMark, Plot};
 use super::scale::Scale;
 use super::shape::PixelPoint;
-use super::style::{AXIS, GREY, GRID, LABEL, NUMBER, Pen};
+use super::style::{AXIS, GREY, GRID, LABEL, NUMBER, Pen, SIDES};
 
 /// Height of a row of words about an event, and size of a remark (pixel).
 pub(crate) const ROW: f64 = 36.0;
@@ -23,6 +23,19 @@ pub(crate) struct PanelFrame {
 }
 
 impl PanelFrame {
+    /// The i-th of panels in one or two columns below `top`: as high, and with so much between two
+    /// rows (pixel).
+    pub(crate) fn of_rows(i: usize, columns: usize, top: f64, (height, gap): (f64, f64)) -> Self {
+        let ((left, right), top) = (SIDES, top + (i / columns) as f64 * (height + gap));
+        let middle = 0.5 * (left + right);
+        let (left, right) = match (columns, i % 2) {
+            (1, _) => (left, right),
+            (_, 0) => (left, middle - 40.0),
+            _ => (middle + 75.0, right),
+        };
+        Self { left, top, right, bottom: top + height }
+    }
+
     /// Whether a point lies inside or on the edge.
     fn holds(&self, (x, y): PixelPoint) -> bool {
         x >= self.left && x <= self.right && y >= self.top && y <= self.bottom

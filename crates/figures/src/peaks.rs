@@ -5,7 +5,7 @@ use super::legend::{self, LegendEntry};
 use super::mark::{Mark, MarkShape};
 use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
-use super::style::{BLACK, BLUE, GREY, Pen, VERMILLION, WIDTH};
+use super::style::{BLACK, BLUE, GREY, Pen, SIDES, VERMILLION};
 use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("peaks");
@@ -38,7 +38,7 @@ pub fn draw(data: &PeaksFigure<'_>) -> Result<Sheet, FigureError> {
         LegendEntry::mark("history", dot(BLUE, MarkShape::Disc)),
         LegendEntry::mark("overturned in one or both", dot(VERMILLION, MarkShape::Square)),
     ];
-    let (left, right) = (150.0, WIDTH as f64 - 40.0);
+    let (left, right) = SIDES;
     let top = legend::header(&mut canvas, data.title, &entries, left, right) + 10.0;
     let (middle, bottom) = (0.5 * (left + right), 750.0);
     let scale = || Scale::linear(0.0, 1.04);

@@ -5,7 +5,7 @@ use super::legend::{self, LegendEntry};
 use super::lettering::Lettering;
 use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
-use super::style::{self, BLUE, GREY, NUMBER, Pen, VERMILLION, WIDTH};
+use super::style::{self, BLUE, GREY, NUMBER, Pen, SIDES, VERMILLION};
 use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("record");
@@ -47,7 +47,7 @@ pub fn draw(data: &RecordFigure<'_>) -> Result<Sheet, FigureError> {
     if data.uplift_g.is_some() {
         entries.push(LegendEntry::line("uplift, ± g tan α", level));
     }
-    let (left, right) = (150.0, WIDTH as f64 - 40.0);
+    let (left, right) = SIDES;
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
     let x = Scale::linear(data.t[0], data.t[n - 1]);
     let (middle, bottom) = (top + 440.0, top + 830.0);

@@ -6,7 +6,7 @@ use super::canvas::Canvas;
 use super::legend::{self, LegendEntry};
 use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
-use super::style::WIDTH;
+use super::style::SIDES;
 use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("rocking");
@@ -78,15 +78,14 @@ pub fn draw(data: &RockingFigure<'_>) -> Result<Sheet, FigureError> {
         .zip(colours)
         .map(|(name, colour)| LegendEntry::patch(*name, colour.into()))
         .collect();
-    let (left, right) = (150.0, WIDTH as f64 - 40.0);
-    let (height, gap) = (620.0, 150.0);
+    let (left, right) = SIDES;
+    let rows = (620.0, 150.0);
     let mut canvas = Canvas::default();
     let top = legend::header(&mut canvas, data.title, &entries, left, right) + 20.0;
     for (i, map) in data.maps.iter().enumerate() {
-        let top = top + i as f64 * (height + gap);
-        one(&mut canvas, map, PanelFrame { left, top, right, bottom: top + height });
+        one(&mut canvas, map, PanelFrame::of_rows(i, 1, top, rows));
     }
-    canvas.finish(top + data.maps.len() as f64 * (height + gap))
+    canvas.finish(top + data.maps.len() as f64 * (rows.0 + rows.1))
 }
 
 /// The different ones of some numbers, increasing.

@@ -19,6 +19,11 @@ pub(crate) struct Scale {
     logarithmic: bool,
 }
 
+/// The least and the largest of some values and zero.
+pub(crate) fn around_zero(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
+    values.into_iter().fold((0.0, 0.0), |(low, high), x| (f64::min(low, x), f64::max(high, x)))
+}
+
 impl Scale {
     /// From low to high exactly; a length of nothing is widened.
     pub(crate) fn linear(low: f64, high: f64) -> Self {

@@ -5,8 +5,8 @@ use super::legend::{self, LegendEntry};
 use super::number::prefix;
 use super::panel::{Panel, PanelFrame};
 use super::plot::EventMark;
-use super::scale::Scale;
-use super::style::{self, BLACK, Pen, WIDTH};
+use super::scale::{Scale, around_zero};
+use super::style::{self, BLACK, Pen, SIDES};
 use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("stack");
@@ -67,7 +67,7 @@ pub fn draw(data: &StackFigure<'_>) -> Result<Sheet, FigureError> {
     let mut entries: Vec<LegendEntry> =
         data.names.iter().zip(&pens).map(|(name, pen)| LegendEntry::line(*name, *pen)).collect();
     entries.extend(data.event.map(|event| LegendEntry::line(event.text, ending)));
-    let (left, right) = (150.0, WIDTH as f64 - 40.0);
+    let (left, right) = SIDES;
     let mut top = legend::header(&mut canvas, data.title, &entries, left, right);
     let x = Scale::linear(data.t[0], data.t[data.t.len() - 1]);
     for (i, quantity) in data.panels.iter().enumerate() {
@@ -87,8 +87,7 @@ fn one(
     (x, frame, last, ending): (Scale, PanelFrame, bool, Pen),
 ) {
     let all = quantity.curves.iter().flat_map(|curve| curve.iter().copied());
-    let (low, high) =
-        all.fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
+    let (low, high) = around_zero(all);
     let size = high.max(-low);
     let (unit, letter) = if size > 0.0 { prefix(size) } else { (1.0, "") };
     let room = (0.06 * (high - low) / unit).max(f64::MIN_POSITIVE);

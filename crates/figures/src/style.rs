@@ -30,6 +30,8 @@ pub(crate) fn series(i: usize) -> RGBColor {
 
 /// Width of every picture (pixel).
 pub(crate) const WIDTH: usize = 1600;
+/// Where panels begin and end across it (pixel).
+pub(crate) const SIDES: (f64, f64) = (150.0, WIDTH as f64 - 40.0);
 /// Size of titles, of labels and legends, of the numbers at the axes (pixel).
 pub(crate) const TITLE: f64 = 32.0;
 pub(crate) const LABEL: f64 = 27.0;

@@ -10,7 +10,7 @@ use super::mark::{Mark, MarkShape};
 use super::number::short;
 use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
-use super::style::{BLACK, BLUE, GREY, NUMBER, Pen, VERMILLION, WIDTH};
+use super::style::{BLACK, BLUE, GREY, NUMBER, Pen, SIDES, VERMILLION};
 use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("validation");
@@ -85,7 +85,7 @@ pub fn draw(data: &ValidationFigure<'_>) -> Result<Sheet, FigureError> {
             infinite(),
         ));
     }
-    let (left, right) = (150.0, WIDTH as f64 - 40.0);
+    let (left, right) = SIDES;
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
     let middle = (left + right) / 2.0;
     let bottom = top + 590.0;
