@@ -5,7 +5,7 @@ use dynamics::spring::{Chain, Springs};
 use rocking::{
     conditioning::Conditioning,
     housner::{RockingOptions, RockingOutcome, solve},
-    motion::nrmse,
+    motion::{largest_magnitude, nrmse},
     statistics::quantile,
     structure::Body,
     synthetic,
@@ -56,8 +56,7 @@ impl ReferenceHistory {
         if outcome != FixedStepOutcome::Finished {
             return StepErrors { outcome, history: f64::INFINITY, peak: f64::INFINITY, work };
         }
-        let largest = |u: &[f64]| u.iter().fold(0.0_f64, |most, u| most.max(u.abs()));
-        let (own, due) = (largest(&history.motion.u), largest(&self.u));
+        let (own, due) = (largest_magnitude(&history.motion.u), largest_magnitude(&self.u));
         StepErrors {
             outcome,
             history: nrmse(&history.motion.u, &self.u),

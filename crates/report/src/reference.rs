@@ -9,7 +9,7 @@ use rocking::{
     conditioning::Conditioning,
     housner::{self, Rocking},
     members::{Friction, Members},
-    motion::{TimedPeak, samples_until},
+    motion::{TimedPeak, largest_magnitude, samples_until},
     regime::{self, Regime},
     scalar::GRAVITY,
     structure::{Body, Structure},
@@ -234,7 +234,7 @@ fn of_members(structure: &Structure, record: &Record, with: &MemberHistory) -> F
     match answer.fate {
         Fate::NeverLifted => {
             let (pga_g, uplift_g) = (record.pga_g(), uplift_g(structure, &with.members));
-            let largest_m = motion.u.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
+            let largest_m = largest_magnitude(&motion.u);
             let left_m = motion.u.last().map_or(0.0, |u| u.abs());
             match with.members.friction.filter(|_| largest_m > LEAST_SLIP * structure.width_m) {
                 Some(Friction { coefficient: friction }) => {

@@ -1,5 +1,7 @@
 //! A motion sampled at the record's instants: what both models answer with, and what is compared.
 
+pub use strong_motion::largest_magnitude;
+
 /// Motion of the centre of mass, relative to the ground, at the record's samples (t = i dt).
 ///
 /// The three vectors have one length. It is shorter than the record when the body toppled.

@@ -39,7 +39,7 @@ pub use spectrum::ResponseSpectrum;
 
 use crate::scalar::GRAVITY;
 use random::Random;
-use strong_motion::{Record, Source};
+use strong_motion::{Record, Source, largest_magnitude};
 
 /// The first n records of the suite of a seed, for a structure with p (1/s) and alpha (rad): see
 /// [`record`].
@@ -140,7 +140,7 @@ fn silence_s(p: f64) -> f64 {
 
 /// Scale to a peak.
 fn scale_to(pga: f64, accel: &mut [f64]) {
-    let peak = accel.iter().fold(0.0, |peak: f64, a| peak.max(a.abs()));
+    let peak = largest_magnitude(accel);
     for a in accel {
         *a *= pga / peak;
     }

@@ -9,6 +9,7 @@ use super::parsed::{Parsed, Samples, mean};
 use super::text::{lines, number, precision, quote};
 use super::timing::Times;
 use super::{Direction, ReadOptions, RecordError, Units, units};
+use crate::largest_magnitude;
 
 /// From so many rows on, values of one sign are no accelerogram.
 const ONE_SIGN_ROWS: usize = 20;
@@ -276,7 +277,7 @@ impl<'a> NumberTable<'a> {
         {
             return false;
         }
-        let peak = self.values.iter().fold(0.0, |peak: f64, value| peak.max(value.abs()));
+        let peak = largest_magnitude(&self.values);
         peak > LARGEST_WHOLE
             || self.values.len() >= ONE_SIGN_ROWS && mean(&self.values).abs() > 0.5 * peak
     }

@@ -109,6 +109,11 @@ pub struct ReadOptions {
     pub vertical: Option<VerticalFrom>,
 }
 
+/// The largest magnitude of some numbers; zero of none.
+pub fn largest_magnitude(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, value| most.max(value.abs()))
+}
+
 impl Record {
     /// A record from its numbers: `dt` in s, `accel` in m/s2.
     ///
@@ -195,7 +200,7 @@ impl Record {
 
     /// Peak ground acceleration (m/s2).
     pub fn pga(&self) -> f64 {
-        self.accel.iter().fold(0.0, |peak: f64, a| peak.max(a.abs()))
+        largest_magnitude(&self.accel)
     }
 
     /// Time of the peak ground acceleration, the first if there are several (s).

@@ -2,6 +2,7 @@
 //! step.
 
 use super::RecordError;
+use crate::largest_magnitude;
 
 /// Unevenness that does not matter, relative to the step: times computed in single precision have
 /// it.
@@ -77,7 +78,7 @@ impl Times {
 
     /// One unit of the last printed digit, at the largest time (s).
     fn last_digit(&self) -> f64 {
-        let largest = self.times.iter().fold(0.0, |largest: f64, t| largest.max(t.abs()));
+        let largest = largest_magnitude(&self.times);
         let leading = if largest > 0.0 { largest.log10().floor() as i32 + 1 } else { 0 };
         10_f64.powi(self.finest.max(leading - self.significant))
     }
@@ -100,7 +101,7 @@ impl Times {
         let offsets = self.times.iter().enumerate().map(|(i, t)| t - i as f64 * dt);
         let (low, high) = offsets
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-        let largest = self.times.iter().fold(0.0, |largest: f64, t| largest.max(t.abs()));
+        let largest = largest_magnitude(&self.times);
         (high - low) - 8.0 * f64::EPSILON * largest
     }
 

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::text::quote;
 use super::{Component, Direction, ReadOptions, Record, RecordError, Recording, Source};
-use crate::GRAVITY;
+use crate::{GRAVITY, largest_magnitude};
 
 /// Where to take the vertical component from: `auto`, or a file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -84,7 +84,7 @@ impl PartialEq for Vertical {
 impl Vertical {
     /// Peak acceleration (g).
     pub fn peak_g(&self) -> f64 {
-        self.accel.iter().fold(0.0, |peak: f64, a| peak.max(a.abs())) / GRAVITY
+        largest_magnitude(&self.accel) / GRAVITY
     }
 
     /// As a record of its own, with the time step given (s).

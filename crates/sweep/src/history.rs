@@ -14,7 +14,7 @@ use dynamics::{
 };
 use rocking::{
     housner::{self, Rocking},
-    motion::samples_until,
+    motion::{largest_magnitude, samples_until},
     structure::Body,
 };
 use strong_motion::Record;
@@ -151,7 +151,7 @@ fn of_housner(subject: &Subject, rocking: &Rocking<f64>) -> CellAnswer {
             CellOutcome::Failed
         }
     };
-    let peak = rocking.theta.iter().fold(0.0, |peak: f64, theta| peak.max(theta.abs()));
+    let peak = largest_magnitude(&rocking.theta);
     CellAnswer {
         outcome,
         peak: ratio(subject, peak, outcome),

@@ -8,6 +8,7 @@ use std::{
 
 use super::pulse::PulseShape;
 use rocking::{
+    motion::largest_magnitude,
     scalar::GRAVITY,
     synthetic::{self, MotionTarget},
 };
@@ -150,7 +151,7 @@ impl SweepMotion {
             _ => making.used(whole),
         };
         let used = &velocity[..record.len()];
-        Ok((record, used.iter().fold(0.0, |most: f64, v| most.max(v.abs()))))
+        Ok((record, largest_magnitude(used)))
     }
 }
 

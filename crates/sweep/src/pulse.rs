@@ -14,7 +14,7 @@ use std::f64::consts::{PI, TAU};
 
 use serde::Deserialize;
 
-use rocking::synthetic::Pulse;
+use rocking::{motion::largest_magnitude, synthetic::Pulse};
 
 /// The shape of a pulse.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -122,7 +122,7 @@ impl PulseShape {
                 accel[n / 2] = 0.0;
             }
         }
-        let largest = accel.iter().fold(0.0, |largest: f64, a| largest.max(a.abs()));
+        let largest = largest_magnitude(&accel);
         accel.iter_mut().for_each(|a| *a *= peak / largest);
         (length / omega / n as f64, accel)
     }
@@ -154,7 +154,7 @@ mod tests {
         for shape in ALL {
             for (omega, p) in [(3.0, 1.0), (0.1, 2.0), (40.0, 0.4)] {
                 let (dt, accel) = shape.sampled(omega, 2.5, p);
-                let peak = accel.iter().fold(0.0, |peak: f64, a| peak.max(a.abs()));
+                let peak = largest_magnitude(&accel);
                 assert!((peak - 2.5).abs() < 1e-12, "{shape:?} {peak}");
                 assert!(
                     dt <= TAU / omega / A_PERIOD * 1.0001 && dt * p <= 1.0001 / A_RADIAN,

@@ -10,7 +10,11 @@ use dynamics::{
     spring::{Chain, Springs},
 };
 use rocking::{
-    conditioning::Conditioning, housner, motion::samples_until, regime, structure::Body,
+    conditioning::Conditioning,
+    housner,
+    motion::{largest_magnitude, samples_until},
+    regime,
+    structure::Body,
 };
 use strong_motion::{Record, Source};
 
@@ -271,7 +275,7 @@ impl Validator {
         let ratio =
             |peak: f64, overturned| if overturned { FRAC_PI_2 } else { peak } / body.alpha();
         let peak_of = |rocking: &housner::Rocking<f64>| {
-            let peak = rocking.theta.iter().fold(0.0, |peak: f64, x| peak.max(x.abs()));
+            let peak = largest_magnitude(&rocking.theta);
             ratio(peak, rocking.overturned().is_some())
         };
         let changed = housner::RockingOptions {

@@ -4,7 +4,12 @@ use super::*;
 use dynamics::compare::Match;
 use dynamics::{fem, spring::Design};
 use fixed_steps::{FixedStepAnalysis, FixedStepSprings, Integrator};
-use rocking::{housner, motion::nrmse, structure::Structure, synthetic};
+use rocking::{
+    housner,
+    motion::{largest_magnitude, nrmse},
+    structure::Structure,
+    synthetic,
+};
 
 /// Springs that absorb a landing along the leg: rebound 0.12 of the landing velocity for the chain
 /// alone.
@@ -54,9 +59,7 @@ fn a_row_says_what_the_whole_histories_say() {
     assert!(close(row.nrmse_vertical.unwrap(), found.nrmse_vertical), "{row:?} {found:?}");
     assert!(close(row.energy_residual.unwrap(), found.energy_residual), "{row:?} {found:?}");
     assert_eq!((row.duration_s, row.impacts), (found.duration_s, found.impacts_housner));
-    let peak = |theta: &[f64]| {
-        theta.iter().fold(0.0, |peak: f64, x| peak.max(x.abs())) / judge.body.alpha()
-    };
+    let peak = |theta: &[f64]| largest_magnitude(theta) / judge.body.alpha();
     assert!(close(row.peak_ratio_housner, peak(&motion.theta)));
     assert!(close(row.peak_ratio_fem.unwrap(), peak(&history.motion.theta)));
     assert!(row.comparable() && row.agrees());
@@ -180,12 +183,12 @@ fn a_row_of_even_steps_says_what_the_program_s_history_says() {
         let motion =
             housner::solve(&body, record.dt, &record.accel, &housner::RockingOptions::default())
                 .motion(&body);
-        let largest = |x: &[f64]| x.iter().fold(0.0, |peak: f64, x| peak.max(x.abs()));
-        let displacement = (largest(&history.motion.u) / largest(&motion.u) - 1.0).abs();
+        let displacement =
+            (largest_magnitude(&history.motion.u) / largest_magnitude(&motion.u) - 1.0).abs();
         let close = |a: Option<f64>, b: f64| (a.unwrap() - b).abs() <= 1e-9 * b.abs().max(1e-3);
         assert!(close(row.nrmse_horizontal, nrmse(&history.motion.u, &motion.u)), "{row:?}");
         assert!(close(row.displacement_error, displacement), "{row:?} {displacement}");
-        assert!(close(row.peak_ratio_fem, largest(&history.motion.theta) / body.alpha()));
+        assert!(close(row.peak_ratio_fem, largest_magnitude(&history.motion.theta) / body.alpha()));
         assert!(row.uplift_error.is_some() && row.overturned_fem == Some(false), "{row:?}");
         assert_eq!(
             (row.base_shear_error, row.axial_error, row.energy_residual),
@@ -236,11 +239,13 @@ fn errors_of_peaks_are_those_of_an_independent_calculation() {
         let (mut history, mut demands) =
             fem::Analysis::new(*body, springs(&structure), record.dt, &record.accel)
                 .simulate_with(&rocking::members::Members::default());
-        let largest = |x: &[f64]| x.iter().fold(0.0, |peak: f64, x| peak.max(x.abs()));
         let motion = rocking.motion(body);
-        let displacement = (largest(&history.motion.u) / largest(&motion.u) - 1.0).abs();
-        let uplift =
-            (largest(&history.motion.theta).sin() / largest(&motion.theta).sin() - 1.0).abs();
+        let displacement =
+            (largest_magnitude(&history.motion.u) / largest_magnitude(&motion.u) - 1.0).abs();
+        let uplift = (largest_magnitude(&history.motion.theta).sin()
+            / largest_magnitude(&motion.theta).sin()
+            - 1.0)
+            .abs();
         let n = history.motion.len();
         demands.separate(body, record.dt, &std::mem::take(&mut history.landings), n);
         let landed = |t: f64| {

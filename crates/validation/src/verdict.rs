@@ -8,7 +8,7 @@ use dynamics::fem::{self, History};
 use rocking::{
     conditioning::Conditioning,
     housner::{self, Rocking},
-    motion::samples_until,
+    motion::{largest_magnitude, samples_until},
     overturning::overturned,
     structure::Body,
 };
@@ -104,8 +104,7 @@ impl Answer {
         theta: &[f64],
     ) -> Self {
         let standing = samples_until(overturned_s, dt).min(theta.len());
-        let peak =
-            theta[..standing].iter().fold(0.0, |peak: f64, x| peak.max(x.abs())) / body.alpha();
+        let peak = largest_magnitude(&theta[..standing]) / body.alpha();
         // a standing finite element body sways without lifting
         Self {
             fate,

@@ -5,6 +5,7 @@ use serde::Deserialize;
 use crate::{WebError, any_case::AnyCase};
 use rocking::{
     housner::{RockingOptions, RockingOutcome, solve_lanes},
+    motion::largest_magnitude,
     structure::Body,
 };
 
@@ -39,15 +40,13 @@ pub(crate) fn answer(case: &AnyCase, asked: &str) -> Result<Vec<Option<f32>>, We
     };
     let options: Vec<_> = asked.iter().map(options).collect();
     let all = solve_lanes(&bodies, record.dt, &record.accel, &options);
-    let peak =
-        |(body, rocking): (&Body<f64>, &rocking::housner::Rocking<f64>)| match rocking.outcome {
-            RockingOutcome::NeverMoved => Some(0.0),
-            RockingOutcome::Rocked => Some(
-                (rocking.theta.iter().fold(0.0, |most: f64, theta| most.max(theta.abs()))
-                    / body.alpha()) as f32,
-            ),
-            _ => None,
-        };
+    let peak = |(body, rocking): (&Body<f64>, &rocking::housner::Rocking<f64>)| match rocking
+        .outcome
+    {
+        RockingOutcome::NeverMoved => Some(0.0),
+        RockingOutcome::Rocked => Some((largest_magnitude(&rocking.theta) / body.alpha()) as f32),
+        _ => None,
+    };
     Ok(bodies.iter().zip(&all).map(peak).collect())
 }
 

@@ -6,6 +6,7 @@ use dynamics::{
 };
 use rocking::{
     members::{Damper, Members, Tendon},
+    motion::largest_magnitude,
     scalar::GRAVITY,
     structure::Structure,
 };
@@ -106,7 +107,7 @@ fn dampers_take_energy_out_of_free_rocking() {
     let members = Members { damper: Some(Damper { c: 1e6 }), ..Members::default() };
     let (damped, demands) = case.simulate_with(&members);
     let rigid = free(&structure, springs, lean, 0.01, 1500);
-    let late = |h: &History| h.motion.u[700..].iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+    let late = |h: &History| largest_magnitude(&h.motion.u[700..]);
     assert!(late(&damped) < 0.75 * late(&rigid), "{} {}", late(&damped), late(&rigid));
     assert!(damped.energy_residual < 1e-6);
     // the corner in the air does the damper's work, up and down
@@ -194,7 +195,7 @@ fn a_frame_follows_the_rigid_body_with_its_dampers_and_does_not_slide() {
     let (radius, alpha) = (body.radius(), body.alpha());
     for (c, samples) in [(1e3, 2001), (1e5, 2001), (1e6, 2001), (1e7, 501)] {
         let theirs = rigid_with_dampers(&structure, &record, c, 400);
-        let largest = theirs.iter().fold(0.0_f64, |m, t| m.max(t.abs()));
+        let largest = largest_magnitude(&theirs);
         let members = Members { damper: Some(Damper { c }), ..Members::default() };
         let (history, _) = run(&structure, plastic(5120.0, structure.mass_kg), &record, &members);
         assert_sound(&history, record.accel.len());

@@ -4,7 +4,7 @@ use dynamics::{
     fem::{Analysis, Control, History},
     spring::{Chain, Springs},
 };
-use rocking::structure::Structure;
+use rocking::{motion::largest_magnitude, structure::Structure};
 use strong_motion::{ReadOptions, Record};
 
 use crate::common::{el_centro, lively, paper, plastic, settled};
@@ -125,7 +125,7 @@ fn quiet_before_a_record_only_shifts_the_history() {
 /// 1e-8 of the peak.
 fn assert_same(one: &History, other: &History, length: f64) {
     let (one, other) = (&one.motion, &other.motion);
-    let largest = one.u.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+    let largest = largest_magnitude(&one.u);
     for (a, b) in [(&one.u, &other.u), (&one.v, &other.v)] {
         assert_eq!(a.len(), b.len());
         let worst = a.iter().zip(b).map(|(a, b)| (a - b / length).abs()).fold(0.0, f64::max);

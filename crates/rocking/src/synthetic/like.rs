@@ -24,7 +24,7 @@ use thiserror::Error;
 use super::{
     fft::Fourier, noise::rest_at_end, random::Random, silence_s, spectrum::ResponseSpectrum,
 };
-use strong_motion::{Record, Source};
+use strong_motion::{Record, Source, largest_magnitude};
 
 /// Streams of random numbers that neither of the other suites uses; from bit 40 on the number of
 /// the draw.
@@ -194,8 +194,7 @@ impl MotionTarget {
         let (mut least, mut kept) = (f64::INFINITY, accel.clone());
         for _ in 0..CORRECTIONS {
             let missing = self.missing(&accel);
-            let mismatch =
-                missing[..self.promised].iter().fold(0.0, |most: f64, ln| most.max(ln.abs()));
+            let mismatch = largest_magnitude(&missing[..self.promised]);
             if mismatch < least {
                 (least, kept) = (mismatch, accel.clone());
             }

@@ -168,7 +168,7 @@ mod tests {
         for duration in [10.0, 17.3, 30.0] {
             let noise = Noise { omega_g: 5.0, zeta_g: 0.3, duration };
             let accel = noise.sampled(0.01, &mut Random::new(7, 0));
-            let largest = accel.iter().fold(0.0, |largest: f64, a| largest.max(a.abs()));
+            let largest = strong_motion::largest_magnitude(&accel);
             let [velocity, displacement] = end_of(accel.iter().copied(), 0.01);
             assert!(velocity.abs() < 1e-12 * largest * duration, "{velocity}");
             assert!(displacement.abs() < 1e-12 * largest * duration * duration, "{displacement}");

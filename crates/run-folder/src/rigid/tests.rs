@@ -4,6 +4,7 @@
 use cases::Case;
 use report::screen::{Written, screen};
 use results::{Finding, ProgramAdvice, Weight};
+use rocking::motion::largest_magnitude;
 use springs::job::Job;
 use strong_motion::Record;
 use strong_motion::excitation::Excitation;
@@ -131,7 +132,7 @@ fn errors_of_a_program_are_of_the_time_that_is_told() {
     let until = predictable_to(&run.parameters.findings).unwrap();
     assert!(until < 7.0, "{until}");
     let samples = (until / run.job.record.dt).round() as usize + 1;
-    let largest = |u: &[f64]| u[..samples].iter().fold(0.0, |most: f64, u| most.max(u.abs()));
+    let largest = |u: &[f64]| largest_magnitude(&u[..samples]);
     let [steps, housner] =
         [&run.of_steps.as_ref().unwrap().motion.u, &run.both.rocking.motion(&run.job.body).u]
             .map(|u| largest(u));

@@ -10,7 +10,7 @@ use frames::{
         StraightMember,
     },
 };
-use rocking::scalar::GRAVITY;
+use rocking::{motion::largest_magnitude, scalar::GRAVITY};
 
 use crate::common::{MODERATE, Numbers, el_centro, pier, springs};
 
@@ -106,7 +106,7 @@ fn a_mirrored_motion_gives_the_mirrored_history() {
     let frame = pier(&MODERATE).layout().frame().unwrap();
     let (one, other) = (history(&frame, &accel, &[]), history(&frame, &mirrored, &[]));
     let [th, mirror] = [&one, &other].map(|history| history.rotation(&frame, Base::Footing(0)));
-    let peak = th.iter().fold(0.0_f64, |peak, th| peak.max(th.abs()));
+    let peak = largest_magnitude(&th);
     assert!(peak > 1e-3);
     assert!(th.iter().zip(&mirror).all(|(a, b)| (a + b).abs() < 1e-6 * peak));
     assert_eq!(one.touches(0), other.touches(1));

@@ -16,7 +16,7 @@ use frames::{
     structure::{ElasticStructure, PierSpec},
 };
 use results::MOST_CHANGE;
-use rocking::{scalar::GRAVITY, synthetic};
+use rocking::{motion::largest_magnitude, scalar::GRAVITY, synthetic};
 use springs::elastic::{
     ElasticAsked, design::springs, landing_speed, stand, trial::ElasticTrial, tune_within,
 };
@@ -320,7 +320,7 @@ fn the_moment_at_a_fixed_base_is_the_shear_times_the_length() {
         "{moment} {shear} {second_order}"
     );
     // it shakes with the ground: m a_max, amplified a little; and it carries its weight
-    let pushed = 450e3 * accel.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
+    let pushed = 450e3 * largest_magnitude(&accel);
     assert!((0.98..1.2).contains(&(shear / pushed)), "{}", shear / pushed);
     assert!((axial / (450e3 * 9.81) - 1.0).abs() < 1e-2, "{axial}");
 }

@@ -14,6 +14,7 @@ use crate::{
 };
 use rocking::{
     members::{Friction, Members},
+    motion::largest_magnitude,
     scalar::GRAVITY,
     structure::Body,
 };
@@ -151,7 +152,7 @@ fn feet_that_never_slip_give_the_history_without_friction() {
     let (free, bound) = (case.simulate(), case.simulate_with(&members(50.0)).0);
     let worst =
         free.motion.u.iter().zip(&bound.motion.u).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    let largest = free.motion.u.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+    let largest = largest_magnitude(&free.motion.u);
     assert!(worst < 1e-3 * largest, "{worst} {largest}");
 }
 

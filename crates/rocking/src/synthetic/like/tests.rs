@@ -1,5 +1,6 @@
 use super::*;
 use crate::scalar::GRAVITY;
+use strong_motion::largest_magnitude;
 
 /// El Centro, and what a floor of 3 Hz and 3 % damping makes of it: narrow, longer than the ground.
 fn given() -> [Record; 2] {
@@ -47,7 +48,7 @@ fn spectra_are_those_of_the_given_motion() {
                     .zip(&wanted)
                     .map(|(there, wanted)| (there / wanted).ln())
                     .collect();
-                let most = ln.iter().fold(0.0_f64, |most, ln| most.max(ln.abs()));
+                let most = largest_magnitude(&ln);
                 let rms = (ln.iter().map(|ln| ln * ln).sum::<f64>() / ln.len() as f64).sqrt();
                 (worst, worst_rms) = (worst.max(most), worst_rms.max(rms));
                 for (sum, ln) in ratios.iter_mut().zip(&ln) {
