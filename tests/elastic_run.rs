@@ -16,6 +16,15 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
+/// What is said of the pier on a record in g, at an accuracy that takes no time.
+fn run_coarsely(folder: &Path, record: &str) -> String {
+    let run = ["run", "pier.toml", "--record", record, "--units", "g", "--accuracy", "0.1"];
+    let quick = ["--no-figures", "--no-report", "--quiet"];
+    let ran = tune(folder, &[&run[..], &quick].concat());
+    assert!(ran.status.success(), "{}", text(&ran.stderr));
+    text(&ran.stdout)
+}
+
 #[test]
 fn a_pier_is_tuned_and_what_is_written_agrees_with_itself() {
     let folder = tempfile::tempdir().unwrap();
@@ -218,20 +227,7 @@ fn a_pier_that_overturns_is_told_to() {
     let pulse: String =
         (0..600).map(|i| if (100..300).contains(&i) { "0.54\n" } else { "0.0\n" }).collect();
     std::fs::write(folder.path().join("pulse.txt"), format!("# dt = 0.01\n{pulse}")).unwrap();
-    let options = [
-        "--record",
-        "pulse.txt",
-        "--units",
-        "g",
-        "--accuracy",
-        "0.1",
-        "--no-figures",
-        "--no-report",
-        "--quiet",
-    ];
-    let ran = tune(folder.path(), &[&["run", "pier.toml"], &options[..]].concat());
-    assert!(ran.status.success(), "{}", text(&ran.stderr));
-    let said = text(&ran.stdout);
+    let said = run_coarsely(folder.path(), "pulse.txt");
     assert!(
         said.contains("The structure overturns at t = ") && said.contains("(in the reference at "),
         "{said}"
@@ -259,20 +255,7 @@ fn of_a_record_without_a_motion_no_landing_and_no_error_is_said() {
         "# dt = 0.01\n".to_string() + &"0.0\n".repeat(20),
     )
     .unwrap();
-    let options = [
-        "--record",
-        "still.txt",
-        "--units",
-        "g",
-        "--accuracy",
-        "0.1",
-        "--no-figures",
-        "--no-report",
-        "--quiet",
-    ];
-    let ran = tune(folder.path(), &[&["run", "pier.toml"], &options[..]].concat());
-    assert!(ran.status.success(), "{}", text(&ran.stderr));
-    let said = text(&ran.stdout);
+    let said = run_coarsely(folder.path(), "still.txt");
     assert!(said.contains("The record does not lift the structure"), "{said}");
     assert!(!said.contains("on this record"), "{said}");
 }

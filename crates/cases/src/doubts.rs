@@ -242,6 +242,15 @@ pub fn of_excitation(excitation: &Excitation) -> Vec<Doubt> {
 }
 
 impl Doubt {
+    /// Peaks of a vertical component that is left out, and of the horizontal one (g), if that is
+    /// doubted.
+    pub fn vertical_left_out(&self) -> Option<(f64, f64)> {
+        match *self {
+            Self::VerticalLeftOut { peak_g, horizontal_g } => Some((peak_g, horizontal_g)),
+            _ => None,
+        }
+    }
+
     /// What is doubted, in one line.
     pub fn message(&self) -> String {
         match self {

@@ -172,11 +172,8 @@ impl ElasticParts<'_> {
 
     /// A vertical component of some size that is left out: what it would change.
     fn vertical_left_out(&self) -> Option<Finding> {
-        let large = |doubt: Doubt| match doubt {
-            Doubt::VerticalLeftOut { peak_g, horizontal_g } => Some((peak_g, horizontal_g)),
-            _ => None,
-        };
-        let (vertical_g, horizontal_g) = self.case.doubts().into_iter().find_map(large)?;
+        let doubts = self.case.doubts();
+        let (vertical_g, horizontal_g) = doubts.iter().find_map(Doubt::vertical_left_out)?;
         let with = || {
             let record = self.case.excitation.with_vertical_left_out()?.ok()?.used().ok()?;
             through(self.assembled, self.springs, &record).ok()?

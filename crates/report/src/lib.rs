@@ -73,7 +73,7 @@ impl Assumed {
 /// Doubts as findings; of a vertical component that is left out a finding of its own tells what it
 /// would change.
 fn doubts(all: Vec<Doubt>) -> impl Iterator<Item = Finding> {
-    let those = all.into_iter().filter(|doubt| !matches!(doubt, Doubt::VerticalLeftOut { .. }));
+    let those = all.into_iter().filter(|doubt| doubt.vertical_left_out().is_none());
     those.map(|doubt| Finding::Doubt { message: doubt.message(), remedy: doubt.remedy() })
 }
 

@@ -11,12 +11,12 @@
 use super::fortran::{Cursor, FortranFormat, Promise, half_digit};
 use super::parsed::{Channel, Parsed, Samples};
 use super::peak::{Clock, Peak, Stated};
-use super::text::{number, quote};
+use super::text::{self, number, quote};
 use super::{Direction, RecordError, RecordFormat, Units};
 
 /// Whether the first lines are those of a COSMOS file.
 pub(super) fn is_it(head: &[&str]) -> bool {
-    head.iter().find(|line| !line.is_empty()).is_some_and(|line| text_lines(line).is_some())
+    text_lines(text::first(head)).is_some()
         || head.iter().any(|line| line.contains("Integer-header values follow"))
 }
 

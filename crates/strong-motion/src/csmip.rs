@@ -8,7 +8,7 @@
 use super::fortran::{Block, Cursor, FortranFormat, Promise, half_digit};
 use super::parsed::{Channel, Parsed, Samples};
 use super::peak::{Clock, Peak, Stated};
-use super::text::{number, quote};
+use super::text::{self, number, quote};
 use super::{Direction, RecordError, RecordFormat, Units};
 
 /// How many lines a channel's header may have.
@@ -18,10 +18,7 @@ const NUMBER_LINES: usize = 13;
 
 /// Whether the first lines are those of a CSMIP file.
 pub(super) fn is_it(head: &[&str]) -> bool {
-    let first = head
-        .iter()
-        .find(|line| !line.is_empty())
-        .map_or(String::new(), |line| line.to_ascii_lowercase());
+    let first = text::first(head).to_ascii_lowercase();
     first.contains("corrected accelerogram") || head.iter().any(|line| is_data_line(line, "accel"))
 }
 

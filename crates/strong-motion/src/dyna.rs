@@ -15,7 +15,7 @@
 use super::fortran::{Cursor, FortranFormat, Promise, half_digit};
 use super::parsed::{Channel, Parsed, Samples};
 use super::peak::{Clock, Stated};
-use super::text::{number, quote};
+use super::text::{self, number, quote};
 use super::{Direction, RecordError, RecordFormat, Units};
 
 /// Keys that no other format has.
@@ -31,7 +31,7 @@ const KEYS: [&str; 7] = [
 
 /// Whether the first lines are those of such a file.
 pub(super) fn is_it(head: &[&str]) -> bool {
-    KEYS.iter().filter(|key| head.iter().any(|line| line.starts_with(**key))).count() >= 2
+    text::begin_with_two(head, &KEYS)
 }
 
 /// The one component.

@@ -11,7 +11,7 @@
 use super::fortran::{Block, Cursor, FortranFormat, Promise, half_digit};
 use super::parsed::{Channel, Parsed, Samples};
 use super::peak::{Clock, Peak, Stated};
-use super::text::number;
+use super::text::{self, number};
 use super::{Direction, RecordError, RecordFormat, Units};
 
 const TEXT_LINES: usize = 16;
@@ -26,10 +26,7 @@ const SERIES: [(&str, &str, &str); 3] = [
 
 /// Whether the first lines are those of a GeoNet file.
 pub(super) fn is_it(head: &[&str]) -> bool {
-    let first = head
-        .iter()
-        .find(|line| !line.is_empty())
-        .map_or(String::new(), |line| line.to_ascii_lowercase());
+    let first = text::first(head).to_ascii_lowercase();
     first.contains("corrected accelerogram")
         && (first.contains("gns science")
             || head.iter().take(TEXT_LINES + 1).any(|line| {

@@ -15,7 +15,7 @@
 use super::fortran::Cursor;
 use super::parsed::{Channel, Parsed, Samples, mean};
 use super::peak::{Clock, Stated};
-use super::text::{number, quote};
+use super::text::{self, number, quote};
 use super::{Direction, RecordError, RecordFormat, Units};
 
 /// Words that lines of the header begin with.
@@ -28,7 +28,7 @@ const HEADER_LINES: usize = 30;
 
 /// Whether the first lines are those of a K-NET file.
 pub(super) fn is_it(head: &[&str]) -> bool {
-    KEYS.iter().filter(|key| head.iter().any(|line| line.starts_with(**key))).count() >= 2
+    text::begin_with_two(head, &KEYS)
 }
 
 /// The one component.

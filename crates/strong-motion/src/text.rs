@@ -22,6 +22,16 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     raw_lines(text).enumerate().map(|(i, line)| (i + 1, line.trim()))
 }
 
+/// The first line that is not empty.
+pub(super) fn first<'a>(head: &[&'a str]) -> &'a str {
+    head.iter().copied().find(|line| !line.is_empty()).unwrap_or_default()
+}
+
+/// Whether at least two of some keys begin a line.
+pub(super) fn begin_with_two(head: &[&str], keys: &[&str]) -> bool {
+    keys.iter().filter(|key| head.iter().any(|line| line.starts_with(**key))).count() >= 2
+}
+
 /// Lines without blanks at their ends: where numbers stand in columns, blanks before them count.
 pub(super) fn raw_lines(text: &str) -> impl Iterator<Item = &str> {
     let end = if text.contains('\n') { '\n' } else { '\r' };

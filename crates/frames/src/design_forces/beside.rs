@@ -17,6 +17,13 @@ pub struct ForcesTogether {
     pub apex_moment_nm: Option<f64>,
 }
 
+impl ForcesTogether {
+    /// Shear, axial force and moment at a base.
+    pub(super) fn of_base([column_shear_n, axial_n, column_base_moment_nm]: [f64; 3]) -> Self {
+        Self { column_shear_n, axial_n, column_base_moment_nm, apex_moment_nm: None }
+    }
+}
+
 /// What a force is, and holds, over a part of the record from its start.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HeldForce {

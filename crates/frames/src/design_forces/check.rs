@@ -220,17 +220,8 @@ impl Series {
         let peaks = peaks.chain(tension);
         let together = |peak: PeakOfForce| {
             let at = (peak.filtered.time / self.part_s - 0.5).round().max(0.0) as usize;
-            let [column_shear_n, axial_n, column_base_moment_nm] =
-                [0, 1, 2].map(|k| base[k][at.min(base[k].len() - 1)]);
-            PeakOfForce {
-                together: Some(ForcesTogether {
-                    column_shear_n,
-                    axial_n,
-                    column_base_moment_nm,
-                    apex_moment_nm: None,
-                }),
-                ..peak
-            }
+            let base = [0, 1, 2].map(|k| base[k][at.min(base[k].len() - 1)]);
+            PeakOfForce { together: Some(ForcesTogether::of_base(base)), ..peak }
         };
         peaks.map(together).collect()
     }
@@ -242,18 +233,13 @@ fn of_massless(column: &RunningPeaks<4>, over_s: f64) -> Vec<PeakOfForce> {
     let peak =
         |kind: ForceName, k: usize, found: Option<StepForces<4>>, raw: Option<StepForces<4>>| {
             let StepForces { time, forces } = found?;
-            let [column_shear_n, axial_n, column_base_moment_nm, _] = forces;
+            let [shear, axial, moment, _] = forces;
             Some(PeakOfForce {
                 kind,
                 filtered: TimedPeak { value: forces[k], time },
                 raw: raw.map_or(forces[k], |step| step.forces[k]),
                 cutoff_hz: None,
-                together: Some(ForcesTogether {
-                    column_shear_n,
-                    axial_n,
-                    column_base_moment_nm,
-                    apex_moment_nm: None,
-                }),
+                together: Some(ForcesTogether::of_base([shear, axial, moment])),
                 above_base_m: (kind == ForceName::ColumnShear).then_some(0.0),
             })
         };

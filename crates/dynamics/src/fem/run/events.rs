@@ -164,6 +164,16 @@ impl TimeLoop<'_> {
         if event.process_step == MOST_LOCATED { Located::Nowhere } else { Located::Next(event.h) }
     }
 
+    /// Begin anew after a change of contact, before which this energy was stored (J).
+    pub(super) fn restart(&mut self, before: f64) {
+        self.energy.stored = self.model.energy(&self.state, &self.feet);
+        self.energy.released += before - self.energy.stored;
+        self.guess = NO_GUESS;
+        self.rate = 1.0;
+        self.h = self.h.min(RESTART * self.settling);
+        self.work.events += 1;
+    }
+
     /// Change a foot's contact.
     pub(super) fn switch(
         &mut self,
@@ -215,12 +225,7 @@ impl TimeLoop<'_> {
         }
         let met = self.turn();
         self.model.rotate_in_balance(&mut self.state, &self.feet);
-        self.energy.stored = self.model.energy(&self.state, &self.feet);
-        self.energy.released += before - self.energy.stored;
-        self.guess = NO_GUESS;
-        self.rate = 1.0;
-        self.h = self.h.min(RESTART * self.settling);
-        self.work.events += 1;
+        self.restart(before);
         if trails {
             observer.event(other, Change::TouchDown, &self.view(time));
         }

@@ -10,7 +10,7 @@ use super::TimeLoop;
 use crate::fem::{
     model::{Contact, Foot, State},
     observer::Observer,
-    step::{NO_GUESS, Stages},
+    step::Stages,
     strut::Strut,
 };
 use rocking::scalar::GRAVITY;
@@ -111,11 +111,6 @@ impl TimeLoop<'_> {
             }
             _ => Foot { contact: Contact::Slip(-force.signum()), ..self.feet[foot] },
         };
-        self.energy.stored = self.model.energy(&self.state, &self.feet);
-        self.energy.released += before - self.energy.stored;
-        self.guess = NO_GUESS;
-        self.rate = 1.0;
-        self.h = self.h.min(super::events::RESTART * self.settling);
-        self.work.events += 1;
+        self.restart(before);
     }
 }
