@@ -9,6 +9,7 @@ use frames::{
     beam::BeamSection,
     frame::{Cantilever, Footing, Frame, StraightMember},
     reference::{FORETOLD, MOST_WORK},
+    structure::PierSpec,
 };
 use rocking::scalar::GRAVITY;
 use springs::elastic::design::CornerSprings;
@@ -51,6 +52,24 @@ pub fn pier(numbers: &Numbers) -> Cantilever {
 
 pub const MODERATE: Numbers =
     Numbers { mass: 6e5, footing: 1.2e5, centre: 0.75, hz: 2.0, axial: 8e9 };
+
+/// The pier of tuning/pier.toml, but that its column has no mass.
+pub const PIER: PierSpec = PierSpec {
+    height_m: 12.0,
+    width_m: 4.0,
+    mass_kg: 600e3,
+    footing_mass_kg: 60e3,
+    footing_height_m: 1.5,
+    footing_inertia_kgm2: None,
+    ea_n: None,
+    ga_n: None,
+    ei_nm2: None,
+    frequency_hz: Some(2.0),
+    damping_ratio: 0.02,
+    axial_damping_ratio: None,
+    column_mass_kg: 0.0,
+    elements: None,
+};
 
 /// Springs scaled by what lands at each corner: K 0.05, C_u 0.60, mu_u 0.66; horizontally K 1, C 2,
 /// mu 0.3 and `ratio` times the frequency (Hz).

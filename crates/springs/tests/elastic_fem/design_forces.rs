@@ -22,29 +22,26 @@ use springs::elastic::{
 };
 use strong_motion::Record;
 
-use crate::common::{answer, el_centro, on_rigid_ground};
+use crate::common::{PIER, answer, el_centro, on_rigid_ground};
 
-const PIER: PierSpec = PierSpec {
+const HEAVY_COLUMN: PierSpec = PierSpec {
     height_m: 14.0,
     width_m: 3.2,
     mass_kg: 450e3,
     footing_mass_kg: 90e3,
-    footing_height_m: 1.5,
-    footing_inertia_kgm2: None,
-    ea_n: None,
-    ga_n: None,
     ei_nm2: Some(7.65e9),
     frequency_hz: None,
     damping_ratio: 0.05,
-    axial_damping_ratio: None,
     column_mass_kg: 79e3,
     elements: Some(4),
+    ..PIER
 };
 
 /// Over 5 s of El Centro, on springs that settle by this share of the structure's own deformation.
 fn forces(elements: usize, give: f64) -> StructureForces {
-    let structure =
-        ElasticStructure::Pier(PierSpec { elements: Some(elements), ..PIER }).checked().unwrap();
+    let structure = ElasticStructure::Pier(PierSpec { elements: Some(elements), ..HEAVY_COLUMN })
+        .checked()
+        .unwrap();
     let model = Assembled::new(structure).unwrap();
     let record = Record::new("El Centro", 0.01, el_centro(501)).unwrap();
     let springs = springs(&stand(&model).unwrap(), give, landing_speed(&structure), 1.0);
@@ -76,7 +73,7 @@ fn a_pier_s_design_forces_hold_and_stay_with_the_elements_doubled_and_on_softer_
 /// has the largest.
 #[test]
 fn shear_is_sampled_along_the_column_and_is_what_is_above_times_the_acceleration() {
-    let model = assembled(PierSpec { column_mass_kg: 300e3, ..PIER });
+    let model = assembled(PierSpec { column_mass_kg: 300e3, ..HEAVY_COLUMN });
     let a = 0.5 * 3.2 / 28.0 * GRAVITY;
     let record = Record::new(
         "made up",
@@ -98,7 +95,7 @@ fn shear_is_sampled_along_the_column_and_is_what_is_above_times_the_acceleration
     let history = analysis.simulate().unwrap();
     let (q, fine) = (history.q.last().unwrap(), history.fine.unwrap());
     let [column] = fine.columns.as_slice() else { panic!("one column") };
-    let length = PIER.height_m - PIER.footing_height_m;
+    let length = HEAVY_COLUMN.height_m - HEAVY_COLUMN.footing_height_m;
     let eighths = [1.0, 3.0, 5.0, 7.0, 8.0].map(|x| x * length / 8.0);
     assert!(
         column.heights.iter().zip(eighths).all(|(x, y)| (x - y).abs() < 1e-9),
@@ -111,7 +108,7 @@ fn shear_is_sampled_along_the_column_and_is_what_is_above_times_the_acceleration
     for ((series, height), beam) in
         [&column.base[0]].into_iter().chain(&column.above).zip(heights.clone()).zip(beams.clone())
     {
-        let above = PIER.mass_kg + 300e3 * (1.0 - height / length);
+        let above = HEAVY_COLUMN.mass_kg + 300e3 * (1.0 - height / length);
         let [x, z] = model.frame.direction(beam, q);
         let expected = above * (a * z + GRAVITY * x.abs());
         let last = series.means.last().unwrap().abs();
@@ -121,7 +118,7 @@ fn shear_is_sampled_along_the_column_and_is_what_is_above_times_the_acceleration
     // without a moment
     let axials = [&column.base[1]].into_iter().chain(&column.axial_above);
     for ((series, height), beam) in axials.zip(heights).zip(beams) {
-        let above = PIER.mass_kg + 300e3 * (1.0 - height / length);
+        let above = HEAVY_COLUMN.mass_kg + 300e3 * (1.0 - height / length);
         let [x, z] = model.frame.direction(beam, q);
         let expected = above * (a * x.abs() - GRAVITY * z);
         let axial = series.means.last().unwrap();
@@ -138,20 +135,10 @@ fn shear_is_sampled_along_the_column_and_is_what_is_above_times_the_acceleration
 
 /// Pier of a column without mass, stiff enough that its bending takes no part in a landing.
 const STIFF: PierSpec = PierSpec {
-    height_m: 12.0,
-    width_m: 4.0,
-    mass_kg: 600e3,
-    footing_mass_kg: 60e3,
-    footing_height_m: 1.5,
-    footing_inertia_kgm2: None,
     ea_n: Some(AXIAL_STIFFNESS * LENGTH),
-    ga_n: None,
-    ei_nm2: None,
     frequency_hz: Some(6.0),
-    damping_ratio: 0.02,
     axial_damping_ratio: Some(0.001),
-    column_mass_kg: 0.0,
-    elements: None,
+    ..PIER
 };
 /// EA/L (N/m), and the length of its column (m).
 const AXIAL_STIFFNESS: f64 = 8e9;
@@ -245,7 +232,7 @@ fn a_landing_gives_the_column_the_axial_force_of_a_mass_that_is_stopped_by_its_s
 /// springs of 16 times their Omega_n: those are not what they were chosen beside. Median over
 /// motions of another seed.
 fn hold_forces_on_other_motions(column_mass_kg: f64, elements: Option<usize>) {
-    let pier = PierSpec { column_mass_kg, elements, ..PIER };
+    let pier = PierSpec { column_mass_kg, elements, ..HEAVY_COLUMN };
     let structure = ElasticStructure::Pier(pier).checked().unwrap();
     let model = Assembled::new(structure).unwrap();
     let error = 0.02;
@@ -289,7 +276,7 @@ fn springs_chosen_by_peaks_hold_forces_on_other_motions() {
 
 #[test]
 fn springs_chosen_by_peaks_hold_forces_of_a_column_with_mass_on_other_motions() {
-    hold_forces_on_other_motions(PIER.column_mass_kg, Some(2));
+    hold_forces_on_other_motions(HEAVY_COLUMN.column_mass_kg, Some(2));
 }
 
 /// What ColumnForces takes from a history of a pier fixed to the ground, its column without mass:
@@ -297,7 +284,8 @@ fn springs_chosen_by_peaks_hold_forces_of_a_column_with_mass_on_other_motions() 
 /// takes, here none: F = m a acts at the top.
 #[test]
 fn the_moment_at_a_fixed_base_is_the_shear_times_the_length() {
-    let stiff = PierSpec { column_mass_kg: 0.0, elements: None, ei_nm2: Some(7.65e13), ..PIER };
+    let stiff =
+        PierSpec { column_mass_kg: 0.0, elements: None, ei_nm2: Some(7.65e13), ..HEAVY_COLUMN };
     let structure = ElasticStructure::Pier(stiff).checked().unwrap();
     let model = Assembled::new(structure).unwrap();
     let frame = model.layout.fixed().frame().unwrap();

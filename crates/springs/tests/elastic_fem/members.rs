@@ -14,18 +14,14 @@ use nalgebra::DVector;
 use rocking::members::{Damper, Members, Tendon};
 use rocking::scalar::GRAVITY;
 
-use crate::common::{el_centro, springs};
+use crate::common::{PIER, el_centro, springs};
 
 fn structure(text: &str) -> ElasticStructure {
     toml::from_str::<ElasticStructure>(text).unwrap().checked().unwrap()
 }
 
 fn pier() -> ElasticStructure {
-    structure(
-        "kind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\nfooting_mass_kg = 60e3\n\
-         footing_height_m = 1.5\n\
-         frequency_hz = 2.0\ndamping_ratio = 0.02\n",
-    )
+    ElasticStructure::Pier(PIER).checked().unwrap()
 }
 
 fn portal() -> ElasticStructure {

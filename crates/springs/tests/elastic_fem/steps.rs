@@ -10,7 +10,7 @@ use rocking::members::{Damper, Members, Tendon};
 use springs::elastic::{design::springs, landing_speed, stand};
 use strong_motion::Record;
 
-use crate::common::{answer, el_centro, on_rigid_ground};
+use crate::common::{PIER, answer, el_centro, on_rigid_ground};
 
 /// Of a column without mass every force is that of a step: no less than at any sample, up to any
 /// time; what acts at that step has it in its own place. With a tendon: T0 + k (length - height) of
@@ -25,13 +25,8 @@ fn forces_of_a_column_without_mass_are_those_of_steps() {
         footing_height_m: 1.0,
         frequency_hz: Some(3.0),
         ea_n: Some(1.2e11),
-        footing_inertia_kgm2: None,
-        ga_n: None,
-        ei_nm2: None,
-        damping_ratio: 0.02,
         axial_damping_ratio: Some(0.001),
-        column_mass_kg: 0.0,
-        elements: None,
+        ..PIER
     };
     let structure = ElasticStructure::Pier(pier).checked().unwrap();
     let members = Members {
