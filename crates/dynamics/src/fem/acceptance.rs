@@ -1,7 +1,7 @@
 //! Step acceptance by the energy account and by the embedded estimate of the local error: what runs
 //! of rigid bodies and of elastic frames share.
 
-use super::energy::Energy;
+use super::{control::Work, energy::Energy};
 
 /// The energy that all steps together may lose or gain, in units of `Control::tolerance`.
 const BUDGET: f64 = 50.0;
@@ -45,7 +45,7 @@ pub struct TriedStep {
 
 /// What becomes of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum StepVerdict {
+enum StepVerdict {
     /// To be tried again with this size (s).
     Refused(f64),
     /// It holds.
@@ -60,7 +60,7 @@ pub enum StepVerdict {
 impl TriedStep {
     /// By what it misses of energy and by its local error, and what these may be.
     #[inline(always)]
-    pub fn verdict(&self, missed: [f64; 2], allowed: [f64; 2]) -> StepVerdict {
+    fn verdict(&self, missed: [f64; 2], allowed: [f64; 2]) -> StepVerdict {
         let &Self { h, planned, settling } = self;
         let (energy, error) = (allowed[0] / missed[0], allowed[1] / missed[1]);
         let finite = (missed[0] + missed[1]).is_finite();
@@ -76,6 +76,28 @@ impl TriedStep {
         // a step cut short by a sample or an event does not refute the size that was planned
         let next = if h < 0.9 * planned && planned.is_finite() { next.max(planned) } else { next };
         StepVerdict::Holds { next, breaks: missed }
+    }
+
+    /// Whether it holds: counted, and the size to go on with.
+    #[inline(always)]
+    pub fn holds(
+        &self,
+        missed: [f64; 2],
+        allowed: [f64; 2],
+        (h, work): (&mut f64, &mut Work),
+    ) -> bool {
+        match self.verdict(missed, allowed) {
+            StepVerdict::Refused(next) => {
+                *h = next;
+                false
+            }
+            StepVerdict::Holds { next, breaks } => {
+                *h = next;
+                work.smallest += usize::from(breaks);
+                work.steps += 1;
+                true
+            }
+        }
     }
 }
 

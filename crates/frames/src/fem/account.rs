@@ -2,9 +2,7 @@
 
 use super::{model::ElasticModel, run::SpringsRun, step::ElasticStages};
 use crate::frame::Frame;
-pub use dynamics::fem::acceptance::{
-    StepVerdict, TriedStep, allowed_energy, allowed_error, cautious,
-};
+pub use dynamics::fem::acceptance::{TriedStep, allowed_energy, allowed_error, cautious};
 use rocking::scalar::GRAVITY;
 
 /// What errors are measured with.
@@ -47,17 +45,10 @@ impl SpringsRun<'_> {
         let missed = self.missed(s);
         let defect = (stored - self.energy.stored - input + dissipated).abs();
         let tried = TriedStep { h: s.h, planned: self.h, settling: self.settling };
-        match tried.verdict([defect, missed], [self.allowed(stored, s), self.allowed_error(s.h)]) {
-            StepVerdict::Refused(h) => {
-                self.h = h;
-                return false;
-            }
-            StepVerdict::Holds { next, breaks } => {
-                self.h = next;
-                self.work.smallest += usize::from(breaks);
-            }
+        let allowed = [self.allowed(stored, s), self.allowed_error(s.h)];
+        if !tried.holds([defect, missed], allowed, (&mut self.h, &mut self.work)) {
+            return false;
         }
-        self.work.steps += 1;
         self.q.copy_from_slice(&s.q[2]);
         self.v.copy_from_slice(&s.v[2]);
         self.energy.book(stored, input, dissipated);

@@ -2,7 +2,7 @@
 
 use super::TimeLoop;
 use crate::fem::{
-    acceptance::{StepVerdict, TriedStep, allowed_energy, cautious},
+    acceptance::{TriedStep, allowed_energy, cautious},
     model::{Model, State, TH, X, Z},
     step::Stages,
 };
@@ -83,20 +83,11 @@ impl TimeLoop<'_> {
         let &StepMeasures { stored, input, dissipated, missed, .. } = measures;
         let defect = (stored - self.energy.stored - input + dissipated).abs();
         let h = stages.h;
-        let process_step = TriedStep { h, planned: self.h, settling: self.settling };
-        match process_step
-            .verdict([defect, missed], [self.allowed(stored, stages), self.allowed_error(h)])
-        {
-            StepVerdict::Refused(h) => {
-                self.h = h;
-                return false;
-            }
-            StepVerdict::Holds { next, breaks } => {
-                self.h = next;
-                self.work.smallest += usize::from(breaks);
-            }
+        let tried = TriedStep { h, planned: self.h, settling: self.settling };
+        let allowed = [self.allowed(stored, stages), self.allowed_error(h)];
+        if !tried.holds([defect, missed], allowed, (&mut self.h, &mut self.work)) {
+            return false;
         }
-        self.work.steps += 1;
         self.state = stages.end();
         self.energy.book(stored, input, dissipated);
         self.scale = self.energy.largest(self.scale);
