@@ -71,13 +71,13 @@ pub(super) struct Locating {
     low: f64,
     high: f64,
     /// Sizes tried.
-    process_step: usize,
+    trials: usize,
 }
 
 impl Locating {
     pub(crate) fn new(foot: usize, level: f64, (whole, tau): (f64, f64)) -> Self {
         let (low, high) = (0.0, f64::INFINITY);
-        Self { foot, level, whole, tau, h: whole * tau, low, high, process_step: 0 }
+        Self { foot, level, whole, tau, h: whole * tau, low, high, trials: 0 }
     }
 
     pub(crate) fn met(&self) -> StepEvent {
@@ -131,7 +131,7 @@ impl TimeLoop<'_> {
         stages: &Stages,
     ) -> Located {
         self.work.located += 1;
-        event.process_step += 1;
+        event.trials += 1;
         if !converged {
             return Located::Nowhere;
         }
@@ -161,7 +161,7 @@ impl TimeLoop<'_> {
         } else {
             return Located::Here { changes: false };
         };
-        if event.process_step == MOST_LOCATED { Located::Nowhere } else { Located::Next(event.h) }
+        if event.trials == MOST_LOCATED { Located::Nowhere } else { Located::Next(event.h) }
     }
 
     /// Begin anew after a change of contact, before which this energy was stored (J).
