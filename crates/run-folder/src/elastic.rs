@@ -268,22 +268,19 @@ impl ElasticRun {
         parameters: &ElasticParameters,
         run: &Run,
     ) -> Result<RunTexts, FolderError> {
-        let files = vec![
+        let tables = RunTexts::of([
             ("parameters.json", parameters.to_json()),
             ("parameters.md", markdown(run)),
             ("summary.csv", summary(run).csv()),
             ("history.csv", self.history()),
             ("members.csv", demands::csv(self, Instants::Samples)),
             ("members_envelopes.csv", demands::csv(self, Instants::Envelopes)),
-        ];
+        ]);
         let program = self.parameters.program.as_ref();
         let decks = models::decks(|format| self.deck(format))?;
-        let even = |row| models::even_decks(row, &self.record, |format| self.stepped(row, format));
-        let decks = decks.and(program.map_or_else(|| Ok(RunTexts::default()), even)?);
-        let mut files: Vec<_> =
-            files.into_iter().map(|(name, text)| (name.to_string(), text)).collect();
-        files.extend(decks.files);
-        Ok(RunTexts { files, left_out: decks.left_out })
+        let stepped = |row: &_, format| self.stepped(row, format);
+        let even = models::even_decks(program, &self.record, stepped)?;
+        Ok(tables.and(decks).and(even))
     }
 
     /// All that is said of it; `parameters` are those filed.

@@ -47,14 +47,15 @@ pub(crate) fn decks(
 /// What goes with a program's steps of one size: the tables of its springs; for OpenSees its decks;
 /// for SAP2000 its tables; for it and ETABS the sheet, and the ground motion that it names.
 pub(crate) fn even_decks<U>(
-    program: &ProgramRow<U>,
+    program: Option<&ProgramRow<U>>,
     record: &Record,
-    deck: impl Fn(DeckFormat) -> Result<SteppedDeck, ExportError>,
+    deck: impl Fn(&ProgramRow<U>, DeckFormat) -> Result<SteppedDeck, ExportError>,
 ) -> Result<RunTexts, FolderError> {
+    let Some(program) = program else { return Ok(RunTexts::default()) };
     let name = |format| deck_name(format, Stepping::Even, program.is_etabs());
-    let told = |name: &str, format| Ok(deck(format)?.told(name));
+    let told = |name: &str, format| Ok(deck(program, format)?.told(name));
     // of what these have not, the others tell
-    let silent = |_: &str, format| Ok((deck(format)?.text, None));
+    let silent = |_: &str, format| Ok((deck(program, format)?.text, None));
     let models: &[_] = if program.in_opensees() {
         &[DeckFormat::OpenSeesPy, DeckFormat::OpenSeesTcl]
     } else if program.in_sap2000() {

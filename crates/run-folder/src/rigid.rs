@@ -114,8 +114,7 @@ pub fn texts(rigid: &RigidRun, out: &Path) -> Result<RunTexts, FolderError> {
     let decks = run_decks(&parameters, rigid)?;
     let run = run.with_decks(&decks.left_out);
     texts.files.push(("report.html".into(), page(&run, &[])));
-    texts.files.extend(decks.files);
-    Ok(RunTexts { left_out: decks.left_out, ..texts })
+    Ok(texts.and(decks))
 }
 
 /// Parameters and tables.
@@ -125,18 +124,14 @@ fn tables(rigid: &RigidRun, parameters: &Parameters, run: &Run) -> RunTexts {
     let of = both.with.as_ref();
     let of = of.map_or((&both.fem, &both.demands), |with| (&with.history, &with.demands));
     let members = |instants| members_csv((rigid.case.structure.kind, &job.body), dt, of, instants);
-    let files = vec![
+    RunTexts::of([
         ("parameters.json", parameters.to_json()),
         ("parameters.md", markdown(run)),
         ("summary.csv", summary(run).csv()),
         ("history.csv", history_csv(dt, both)),
         ("members.csv", members(Instants::Samples)),
         ("members_envelopes.csv", members(Instants::Envelopes)),
-    ];
-    RunTexts {
-        files: files.into_iter().map(|(name, text)| (name.to_string(), text)).collect(),
-        left_out: Vec::new(),
-    }
+    ])
 }
 
 /// `parameters.json` as it stands in a folder.
@@ -181,14 +176,12 @@ fn run_decks(parameters: &Parameters, rigid: &RigidRun) -> Result<RunTexts, Fold
     let width_sensitivity = width_sensitivity(&history.motion, &parameters, record);
     let until = predictable_to(&rigid.parameters.findings);
     let expected = Expected::foretold(history, width_sensitivity, record.dt, until);
-    let stepped = |format: DeckFormat| match of_steps {
+    let stepped = |_: &_, format: DeckFormat| match of_steps {
         Some(history) => decks::even_deck(&parameters, record, format, history, until),
         None => Err(ExportError::NoProgram),
     };
     let all = models::decks(|format| decks::export(&parameters, record, &expected, format))?;
-    let even = |program| models::even_decks(program, record, stepped);
-    let even = parameters.program.as_ref().map_or_else(|| Ok(RunTexts::default()), even)?;
-    Ok(all.and(even))
+    Ok(all.and(models::even_decks(parameters.program.as_ref(), record, stepped)?))
 }
 
 #[cfg(test)]

@@ -4,7 +4,10 @@ use std::fmt::Write;
 
 use dynamics::fem::{Demands, History, QUANTITIES};
 use parameters::answers::ModelComparison;
-use rocking::structure::{Body, Kind};
+use rocking::{
+    motion::Motion,
+    structure::{Body, Kind},
+};
 
 /// `history.csv`: the motions at the record's samples, 12 significant digits; with members three
 /// columns more.
@@ -23,13 +26,11 @@ pub fn history_csv(dt: f64, both: &ModelComparison) -> String {
     let compared = || motions.iter().skip(usize::from(left)).map(|(_, motion)| motion.len()).min();
     let rows = both.with.as_ref().map(|with| with.history.motion.len()).or_else(compared);
     for i in 0..rows.unwrap_or(0) {
-        out.push_str(&digits_12(i as f64 * dt));
-        for (_, motion) in &motions {
-            let row = (i < motion.len())
-                .then(|| [motion.u[i], motion.v[i], motion.theta[i]].map(digits_12));
-            let _ = write!(out, ",{}", row.map_or(",,".into(), |row| row.join(",")));
+        let mut row = vec![i as f64 * dt];
+        for (_, Motion { u, v, theta }) in &motions {
+            row.extend([u, v, theta].map(|x| x.get(i).copied().unwrap_or(f64::NAN)));
         }
-        out.push('\n');
+        csv_row(&mut out, &row);
     }
     out
 }

@@ -14,6 +14,12 @@ pub struct RunTexts {
 }
 
 impl RunTexts {
+    /// Of tables by name.
+    pub(crate) fn of(tables: impl IntoIterator<Item = (&'static str, String)>) -> Self {
+        let files = tables.into_iter().map(|(name, text)| (name.into(), text)).collect();
+        Self { files, left_out: Vec::new() }
+    }
+
     /// Both.
     pub(crate) fn and(mut self, other: Self) -> Self {
         self.files.extend(other.files);
