@@ -5,7 +5,6 @@ mod row;
 use std::path::{Path, PathBuf};
 
 use clap::{Arg, Args};
-use comfy_table::{Table, presets};
 use serde::Serialize;
 
 use super::{
@@ -176,9 +175,8 @@ impl FileReport {
     /// A heading, a row a component, what a run takes.
     fn text(&self) -> String {
         let station = self.station.as_ref().map_or(String::new(), |station| format!(", {station}"));
-        let mut table = Table::new();
         let on_structure = self.components.iter().any(|row| row.structure.is_some());
-        table.load_style(presets::ASCII_MARKDOWN).set_header(row::head(on_structure));
+        let mut table = terminal::table(row::head(on_structure));
         table.add_rows(self.components.iter().map(ComponentRow::cells));
         let run = &self.run;
         let mut text = format!(

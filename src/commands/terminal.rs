@@ -12,6 +12,7 @@ use std::{
     sync::atomic::{AtomicBool, Ordering},
 };
 
+use comfy_table::{Row, Table, presets};
 use serde::Serialize;
 
 use super::CommandError;
@@ -21,6 +22,13 @@ use files::message::{is_unprintable, printable, printable_lines};
 static STDOUT_ENDED: AtomicBool = AtomicBool::new(false);
 /// Whether something that was for stderr was lost, though a reader waits for it.
 static STDERR_FAILED: AtomicBool = AtomicBool::new(false);
+
+/// A table to be printed, that Markdown takes, too.
+pub fn table(head: impl Into<Row>) -> Table {
+    let mut table = Table::new();
+    table.load_style(presets::ASCII_MARKDOWN).set_header(head);
+    table
+}
 
 /// Write results to stdout. Call it when all files are written: a full disk must not cost them.
 ///

@@ -8,7 +8,7 @@ use std::{
 };
 
 use clap::Args;
-use comfy_table::{Table, presets};
+use comfy_table::Table;
 
 use super::{
     CommandError,
@@ -99,13 +99,7 @@ fn of(parameters: &dyn Debug, record: &Record, accuracy: f64) -> String {
 fn said(record: &Record, result: &Verification) -> String {
     let last = (result.ours.len() - 1) as f64 * result.dt;
     let peaks = peaks_table(&title(record, last), &result.peaks);
-    let mut errors = Table::new();
-    errors.load_style(presets::ASCII_MARKDOWN).set_header([
-        "error of the history (NRMSE)",
-        "u",
-        "v",
-        "theta",
-    ]);
+    let mut errors = terminal::table(["error of the history (NRMSE)", "u", "v", "theta"]);
     for (name, a) in [
         ("OpenSees against tune simulate", result.opensees_against_ours),
         ("OpenSees against Housner", result.opensees_against_housner),
@@ -144,8 +138,7 @@ const FORCES: &str =
 
 /// Peaks of our own history, of OpenSees', and the difference.
 fn peaks_table(title: &str, peaks: &[ComparedPeak]) -> Table {
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN).set_header([title, "tune", "OpenSees", "difference"]);
+    let mut table = terminal::table([title, "tune", "OpenSees", "difference"]);
     for peak in peaks {
         let unit = if peak.unit == "m" { "mm" } else { "mrad" };
         let difference =

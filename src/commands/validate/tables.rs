@@ -2,9 +2,7 @@
 
 use std::fmt::Write;
 
-use comfy_table::presets;
-
-use super::CommandError;
+use super::{CommandError, terminal};
 use report::Table;
 use rocking::motion::{percent, shown};
 use validation::{
@@ -181,9 +179,8 @@ pub fn csv(v: &Validation) -> Result<Vec<u8>, CommandError> {
 
 /// The summary for a terminal.
 pub fn terminal(v: &Validation) -> String {
-    let mut table = comfy_table::Table::new();
     let Table { head, rows } = summary(v);
-    table.load_style(presets::ASCII_MARKDOWN).set_header(head);
+    let mut table = terminal::table(head);
     table.add_rows(rows);
     let mut out = table.to_string();
     for row in v.records.iter().filter(|_| v.records.len() == 1) {
