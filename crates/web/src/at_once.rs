@@ -18,7 +18,7 @@ use frames::{
     assembled::Assembled,
     fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
 };
-use report::{Taken, Unit, filed, rigid::at_once::RunAtOnce};
+use report::{Taken, Unit, filed, rigid::at_once::RunAtOnce, sentence};
 use results::{Finding, Peaks};
 use springs::{
     at_once::springs_at_once,
@@ -103,13 +103,6 @@ fn elastic(case: &ElasticCase) -> Result<Said, WebError> {
         working,
         history: HistorySeries::on_springs(&assembled, &fem, &record),
     })
-}
-
-/// With a capital letter and a full stop.
-fn sentence(message: &str) -> String {
-    let mut letters = message.chars();
-    let first = letters.next().map(|c| c.to_uppercase().collect::<String>()).unwrap_or_default();
-    format!("{first}{}.", letters.as_str())
 }
 
 fn what_it_does(
