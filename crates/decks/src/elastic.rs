@@ -86,7 +86,15 @@ impl ElasticDeck<'_> {
             DeckFormat::Sap2000Sheet => sap2000::sheet(&self.sap2000(format)?),
             DeckFormat::Csv => plain::csv(self.even()?.as_ref(), &self.places()),
             DeckFormat::Markdown => {
-                plain::markdown(self.title, self.even()?.as_ref(), &self.places())
+                let even = self.even()?;
+                let mut text = plain::markdown(self.title, even.as_ref(), &self.places());
+                if let Some(damped) = even.map(|even| even.forces_at()).filter(|&by| by < 1.0) {
+                    text.push_str(&format!(
+                        "\nUnder this integrator OpenSees' damping objects act too strongly: in a \
+                         script of your own give them {damped:.3} of the structure's damping.\n"
+                    ));
+                }
+                text
             }
         })
     }

@@ -35,8 +35,9 @@ pub(super) fn csv(even: Option<&EvenSteps>, places: &[NamedSprings]) -> String {
         String::from("foot,direction,k1_n_per_m,k2_n_per_m,m2_kg,c_ns_per_m,for_steps\n");
     let steps = match even {
         None => "shortened towards touches".into(),
-        Some(EvenSteps { step, integrator, touches, .. }) => {
-            format!("{}{} by {integrator}", quantity(*step, "s"), substeps(*touches))
+        Some(even @ EvenSteps { step, integrator, touches, .. }) => {
+            let warning = even.warning().map_or("", |_| " (NOT to be used: see the report)");
+            format!("{}{} by {integrator}{warning}", quantity(*step, "s"), substeps(*touches))
         }
     };
     for row in rows(places) {
@@ -63,8 +64,9 @@ pub(super) fn markdown(title: &str, even: Option<&EvenSteps>, places: &[NamedSpr
         "The gaps press and never pull; the horizontal k1 acts only while its foot presses.\n\n",
     );
     let steps = |even: &EvenSteps| {
+        let warning = even.warning().map_or(String::new(), |why| format!("**{why}.**\n\n"));
         format!(
-            "These springs are for a program with steps of {}{} ({}).\n\n",
+            "These springs are for a program with steps of {}{} ({}).\n\n{warning}",
             quantity(even.step, "s"),
             substeps(even.touches),
             even.integrator

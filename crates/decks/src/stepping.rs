@@ -114,6 +114,11 @@ impl EvenSteps {
         })
     }
 
+    /// Why the springs are not to be used; those for substeps at touches were not measured.
+    pub(crate) fn warning(&self) -> Option<NotToBeUsed> {
+        self.not_to_be_used.filter(|_| self.touches == 1)
+    }
+
     /// Newton's displacement tolerance (m).
     pub(crate) fn tolerance(&self) -> f64 {
         TOLERANCE * GRAVITY * (self.step / self.touches as f64).powi(2)

@@ -108,6 +108,28 @@ fn a_deck_that_ends_before_its_record_says_so() {
     assert!(after.contains("predicted to 3.00 s") && !after.contains("another step"), "{after}");
 }
 
+/// Steps of 20 ms are too long for a block 2 m tall.
+#[test]
+fn springs_of_no_use_are_marked_in_every_format() {
+    let formats = [
+        DeckFormat::OpenSeesPy,
+        DeckFormat::OpenSeesTcl,
+        DeckFormat::Csv,
+        DeckFormat::Markdown,
+    ];
+    for (step, marked) in [(0.02, true), (1e-3, false)] {
+        let parameters = for_program(ProgramName::OpenSees, step);
+        for format in formats {
+            let even = text(&parameters, format, Stepping::Even);
+            assert_eq!(even.contains("NOT to be used"), marked, "{format:?}, {step}");
+            // springs for substeps are others
+            assert!(!text(&parameters, format, Stepping::Touches).contains("NOT to be used"));
+        }
+        let python = text(&parameters, DeckFormat::OpenSeesPy, Stepping::Even);
+        assert!(python.starts_with("#!/usr/bin/env python3\n"));
+    }
+}
+
 #[test]
 fn sap2000_tables_have_the_load_case_of_the_program() {
     let parameters = for_program(ProgramName::Sap2000, 0.001);

@@ -68,6 +68,21 @@ pub struct CornerSprings {
     pub omega_n_hz: f64,
 }
 
+impl CornerSprings {
+    /// With horizontal units whose k1 is so many times that of the vertical ones: they land as
+    /// before, faster or slower.
+    pub(super) fn with_horizontal(mut self, standing: &Standing, over_vertical: f64) -> Self {
+        for Springs { vertical, horizontal } in &mut self.corners {
+            let times = over_vertical * vertical.k1 / horizontal.k1;
+            horizontal.k1 *= times;
+            horizontal.k2 *= times;
+            horizontal.c *= times.sqrt();
+        }
+        self.give = give_of(standing, &self.corners);
+        self
+    }
+}
+
 /// What lands at a footing, in units of its mass.
 #[derive(Clone, Debug)]
 struct Lands {
@@ -175,7 +190,7 @@ pub(super) fn with_vertical(standing: &Standing, k1: f64, k: f64) -> CornerSprin
         standing.footings.iter().position(|f| f.corners.contains(&corner)).unwrap_or(0)
     };
     let corners: Vec<_> = (0..count).map(|corner| of_footing[footing(corner)]).collect();
-    let give = standing.responses.iter().map(|sway| total_give(sway, &corners)).sum();
+    let give = give_of(standing, &corners);
     let omega_n_hz = (k1 / standing.mass).sqrt() / TAU;
     CornerSprings { corners, k, give, omega_n_hz }
 }
@@ -185,7 +200,12 @@ fn alike(a: &FootingInertia, b: &FootingInertia) -> bool {
     a.w.shape() == b.w.shape() && a.width == b.width && (&a.w - &b.w).amax() <= SAME * b.w.amax()
 }
 
-/// Energy of the springs over that of the structure.
+/// Energy of the springs over that of the structure, over all sways.
+fn give_of(standing: &Standing, corners: &[Springs<Chain>]) -> f64 {
+    standing.responses.iter().map(|sway| total_give(sway, corners)).sum()
+}
+
+/// The same in one of them.
 fn total_give(sway: &FixedResponse, corners: &[Springs<Chain>]) -> f64 {
     let each = sway.reactions.iter().zip(corners);
     let energy: f64 = each
