@@ -202,38 +202,44 @@ async function charts(of) {
   const w = last?.working;
   if (!w) return;
   const text = caseText(), stale = () => of !== version;
+// histories asked for at once: the solver takes sixteen side by side
+const LANES = 32;
   const ask = async (items) => JSON.parse((await quick.call("variations", text, JSON.stringify(items))).answer);
   const fill = async (id, xs, item, options, caption) => {
     const rows = [];
-    for (let i = 0; i < xs.length; i += 16) {
-      const part = xs.slice(i, i + 16), answers = await ask(part.map(item));
+    for (let i = 0; i < xs.length; i += LANES) {
+      const part = xs.slice(i, i + LANES), answers = await ask(part.map(item));
       if (stale()) return;
       part.forEach((x, k) => rows.push([x * (options.by ?? 1), answers[k]]));
       plotShare(id, rows, options);
-      $("else-progress").textContent = `${Math.min(i + 16, xs.length)} of ${xs.length} histories`;
+      $("else-progress").textContent = `${Math.min(i + LANES, xs.length)} of ${xs.length} histories`;
     }
     replot[id] = () => plotShare(id, rows, options);
-    caption(rows);
+    await caption(rows);
+  };
+  // where the first falls between a number that stands and one that falls, in units of by
+  const edge = async (stands, falls, item, by = 1) => {
+    const share = Number((await quick.call("first_fall", text, JSON.stringify([item(stands / by), item(falls / by)]))).answer);
+    return stands + share * (falls - stands);
   };
   try {
     const len = unitOf(LENGTH), b = w.half_width_m;
     // a lattice of its own, so that what is found of widths does not hang on the one given
-    const lattice = Array.from({ length: 75 }, (_, i) => 1.025 ** (Math.ceil(Math.log(0.8 * b) / Math.log(1.025)) + i) / (2 * b)), widths = lattice.filter((f) => { const a = Math.atan((f * b) / w.height_m); return a > 0.006 && a < 0.88; });
+    const lattice = steps(0.8 * b, 5 * b, WIDTH_STEP).map((x) => x / (2 * b)), widths = lattice.filter((f) => { const a = Math.atan((f * b) / w.height_m); return a > 0.006 && a < 0.88; });
     // the rigid body's own width: of a portal that of one footing
     const own = value(KINDS[state.kind].width) * len.by;
-    await fill("plot-width", widths, (f) => ({ alpha: Math.atan((f * b) / w.height_m), radius_m: Math.hypot(f * b, w.height_m) }), { own, by: own, xName: `width, ${len.unit}; dashed: as given`, range: [widths[0] * own, widths.at(-1) * own] }, (rows) => {
+    const wide = (f) => ({ alpha: Math.atan((f * b) / w.height_m), radius_m: Math.hypot(f * b, w.height_m) });
+    await fill("plot-width", widths, wide, { own, by: own, xName: `width, ${len.unit}; dashed: as given`, range: [widths[0] * own, widths.at(-1) * own] }, async (rows) => {
       const falls = rows.findLastIndex(([, s]) => s === null);
-      $("width-caption").textContent = falls < 0 ? `No width tried falls (${digits(rows[0][0], 3)} to ${digits(rows.at(-1)[0], 3)} ${len.unit}).` : falls === rows.length - 1 ? `It falls even ${digits(rows[falls][0], 3)} ${len.unit} wide.` : (() => {
-        const narrow = rows.findIndex(([, s]) => s !== null), at = (i) => digits(rows[i][0], 3);
-        const edge = narrow < falls ? `From ${at(narrow)} to ${at(falls)} ${len.unit} some stand and some fall: small changes decide there. ` : "";
-        return `${edge}Every width tried from ${at(falls + 1)} ${len.unit} on stands (steps of 2.5 %); take a margin.`;
-      })();
+      const least = falls < 0 || falls === rows.length - 1 ? null : await edge(rows[falls + 1][0], rows[falls][0], wide, own);
+      if (!stale()) $("width-caption").textContent = widthCaption(rows, least, len.unit);
     });
     if (stale()) return;
-    const range = [0.05, Math.max(3, 2 * state.scale)], scales = spread(...range, 64);
-    await fill("plot-scale", scales, (scale) => ({ scale }), { own: state.scale, xName: "scale of the record, times; dashed: as given", range: [0, range[1]] }, (rows) => {
-      const first = rows.find(([, s]) => s === null);
-      $("scale-caption").textContent = first ? `The weakest that overturns it: ${digits(first[0], 3)} times the record.` : `Nothing up to ${digits(range[1], 3)} times the record overturns it.`;
+    const range = [0.05, Math.max(3, 2 * state.scale)], scales = steps(...range, SCALE_STEP);
+    await fill("plot-scale", scales, (scale) => ({ scale }), { own: state.scale, xName: "scale of the record, times; dashed: as given", range: [0, range[1]] }, async (rows) => {
+      const first = rows.findIndex(([, s]) => s === null);
+      const weakest = first < 0 ? null : first === 0 ? rows[0][0] : await edge(rows[first - 1][0], rows[first][0], (scale) => ({ scale }));
+      if (!stale()) $("scale-caption").textContent = scaleCaption(rows, weakest);
     });
     if (stale()) return;
     const sizes = spread(Math.max(0.05, w.radius_m / 12), w.radius_m * 12, 48, true), alphas = spread(0.03, Math.min(0.85, Math.max(0.5, 1.5 * w.alpha)), 28);

@@ -70,7 +70,33 @@ function digits(x, n = 4) {
   const rounded = Number(x.toPrecision(n));
   return a >= 10000 ? Math.round(rounded).toLocaleString("en-US").replace(/,/g, " ") : String(rounded);
 }
+// three digits, never above x or never below it: an edge is told on its safe side
+const digitsDown = (x, way = Math.floor) => { const by = 10 ** (2 - Math.floor(Math.log10(x))); return digits(way(x * by * (1 + (way === Math.floor ? 1e-12 : -1e-12))) / by, 3); };
+const digitsUp = (x) => digitsDown(x, Math.ceil);
 const withUnit = (x, unit, n = 4) => `${digits(x * unitOf(unit).by, n)} ${unitOf(unit).unit}`;
+
+// ---- what the charts tell
+const WIDTH_STEP = 0.005, SCALE_STEP = 0.002;
+// from one number to another in equal shares, on a lattice that does not hang on them
+const steps = (low, high, share) => { const by = Math.log(1 + share), from = Math.ceil(Math.log(low) / by); return Array.from({ length: Math.floor(Math.log(high) / by) - from + 1 }, (_, i) => Math.exp((from + i) * by)); };
+const scanned = (what, share) => `${what} tried in steps of ${100 * share} %; narrower bands may be missed, so take a margin.`;
+// rows of [width, share of overturning or null], from narrow to wide; the least width from which on all stand
+function widthCaption(rows, least, unit) {
+  const falls = rows.findLastIndex(([, s]) => s === null), how = scanned("Widths", WIDTH_STEP);
+  if (falls < 0) return `No width tried falls (${digits(rows[0][0], 3)} to ${digits(rows.at(-1)[0], 3)} ${unit}). ${how}`;
+  if (least === null) return `It falls even ${digits(rows[falls][0], 3)} ${unit} wide.`;
+  const narrow = rows.findIndex(([, s]) => s !== null);
+  const edge = narrow < falls ? `From ${digits(rows[narrow][0], 3)} to ${digits(rows[falls][0], 3)} ${unit} some stand and some fall: small changes decide there. ` : "";
+  return `${edge}From ${digitsUp(least)} ${unit} on every width tried stands. ${how}`;
+}
+// the same over scales of the record; the weakest that overturns
+function scaleCaption(rows, weakest) {
+  const how = scanned("Scales", SCALE_STEP);
+  if (weakest === null) return `Nothing up to ${digits(rows.at(-1)[0], 3)} times the record overturns it. ${how}`;
+  const stands = rows.findLastIndex(([, s]) => s !== null);
+  const some = stands >= 0 && rows[stands][0] > weakest ? ` Up to ${digits(rows[stands][0], 3)} times some stand and some fall: small changes decide there.` : "";
+  return `The weakest found to overturn it: ${digitsDown(weakest)} times the record.${some} ${how}`;
+}
 
 // ---- state
 const state = { kind: "block", u: "m", rec: "elcentro", scale: 1, amp: 0.5, per: 1, file: "", comp: "", vert: false, dt: "", units: "", prog: "sap2000", step: "", integ: "", values: {} };

@@ -10,6 +10,7 @@
 //! | [`tune`], [`run_file`] | a case | the whole run: what is said of it; its files, the bytes that `tune run --no-figures --no-front` writes |
 //! | [`fixed_step`] | a rigid body's case | the springs for its program that a run tries first |
 //! | [`variations`] | a case; sizes, slendernesses, scales | the largest rotation of each |
+//! | [`first_fall`] | a case; one that stands, one that falls | where between them the first falls |
 //!
 //! Every function gives JSON, or the one line that the program says of bad input. There are no
 //! threads: a page calls from a worker and ends the worker to stop it. On wasm32 they are exported
@@ -136,6 +137,16 @@ pub fn fixed_step(case: &str) -> JsonOrLine {
 #[cfg_attr(target_family = "wasm", wasm_bindgen)]
 pub fn variations(case: &str, asked: &str) -> JsonOrLine {
     json(AnyCase::of(case).and_then(|case| variations::answer(&case, asked)))
+}
+
+/// Between two of [`variations`], JSON in: the first stands, the second falls. The share of the way
+/// from one to the other at which the first falls, to 1/4096.
+///
+/// # Errors
+/// What is wrong with the case, the record or the two.
+#[cfg_attr(target_family = "wasm", wasm_bindgen)]
+pub fn first_fall(case: &str, ends: &str) -> JsonOrLine {
+    json(AnyCase::of(case).and_then(|case| variations::first_fall(&case, ends)))
 }
 
 #[cfg(test)]

@@ -77,6 +77,26 @@ fn variations_are_bodies_on_the_record() {
     assert_eq!((answer[2].as_f64(), answer[3].is_null()), (Some(0.0), true));
 }
 
+/// Steady ground pushes a body over as soon as it lifts it, at g tan(alpha): nothing brings it
+/// back. A block of 2 m by 0.5 m lifts at g/4; ground of 0.2 g does that 1.25 times as strong.
+#[test]
+fn the_weakest_motion_and_the_widest_body_that_fall_are_found() {
+    give_file("steady.txt", "0.2\n".repeat(3000).as_bytes());
+    let case = "[structure]\nkind = \"block\"\ntotal_height_m = 2.0\nwidth_m = 0.5\n\
+        mass_kg = 100.0\n[record]\nfile = \"steady.txt\"\ndt_s = 0.01\nunits = \"g\"\n";
+    let share = |ends: &str| parsed(first_fall(case, ends)).as_f64().unwrap();
+    let scale = 1.2 + 0.1 * share(r#"[{"scale": 1.2}, {"scale": 1.3}]"#);
+    assert!(scale > 1.25 && scale < 1.25 + 0.1 / 4000.0, "{scale}");
+    // tan(alpha) = 0.2, at whatever radius
+    let alpha = 0.3 - 0.2 * share(r#"[{"alpha": 0.3}, {"alpha": 0.1}]"#);
+    let closed = 0.2_f64.atan();
+    assert!(alpha < closed && alpha > closed - 0.2 / 4000.0, "{alpha}");
+    // both directions give the first that falls, seen from the one that stands
+    assert_eq!(share(r#"[{"scale": 1.0}, {"scale": 1.25001}]"#), 1.0);
+    forget_file("steady.txt");
+    assert!(first_fall(FRAME, "[{}]").unwrap_err().contains("list of variations"));
+}
+
 #[test]
 fn springs_for_a_program_are_in_closed_form_at_once() {
     let case = format!("{FRAME}[program]\nstep_s = 0.001\nintegrator = \"trbdf2\"\n");
