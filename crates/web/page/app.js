@@ -168,6 +168,9 @@ function showError(message) {
   for (const id of ["tiles", "remarks", "springs", "tuned", "working", "fixed"]) $(id).replaceChildren();
   $("tune-state").textContent = "";
   last = null;
+  spectrum = null;
+  for (const id of Object.keys(replot)) delete replot[id];
+  for (const id of ["width-caption", "scale-caption", "spectrum-caption", "else-progress"]) $(id).textContent = "";
   for (const id of ["plot-top", "plot-ground", "plot-width", "plot-scale", "plot-spectrum"]) canvasOf(id);
   drawStructure(null, 0, 1, 1);
 }
@@ -199,13 +202,13 @@ async function fixedStep(of) {
 
 // ---- charts that fill in, a few histories at a time, so that sliders go before
 const spread = (low, high, n, log) => Array.from({ length: n }, (_, i) => (log ? low * (high / low) ** (i / (n - 1)) : low + ((high - low) * i) / (n - 1)));
+// histories asked for at once: the solver takes sixteen side by side
+const LANES = 32;
 async function charts(of) {
   while (asking) await new Promise((go) => setTimeout(go, 20));
   const w = last?.working;
   if (!w) return;
   const text = caseText(), stale = () => of !== version;
-// histories asked for at once: the solver takes sixteen side by side
-const LANES = 32;
   const ask = async (items) => JSON.parse((await quick.call("variations", text, JSON.stringify(items))).answer);
   const fill = async (id, xs, item, options, caption) => {
     const rows = [];

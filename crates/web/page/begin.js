@@ -55,13 +55,20 @@ addEventListener("dragover", (e) => { e.preventDefault(); $("over").hidden = fal
 addEventListener("dragleave", (e) => { if (!e.relatedTarget) $("over").hidden = true; });
 addEventListener("drop", (e) => { e.preventDefault(); $("over").hidden = true; const [file] = e.dataTransfer.files; if (file) take(file); });
 
-addEventListener("popstate", () => { fromHash(location.hash); restHash = toHash(); movedTime = false; buildForm(); changed(); askRecord(); });
+// what of a link was not taken stands there until something is changed
+function takeLink() {
+  const told = fromHash(location.hash);
+  $("link-note").textContent = told;
+  $("link-note").hidden = told === "";
+}
+for (const happens of ["input", "change"]) $("form").addEventListener(happens, () => ($("link-note").hidden = true));
+addEventListener("popstate", () => { takeLink(); restHash = toHash(); movedTime = false; buildForm(); changed(); askRecord(); });
 const again = () => { if (last) showTime(); for (const plot of Object.values(replot)) plot(); };
 addEventListener("resize", again);
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", again);
 addEventListener("beforeprint", () => ($("working-details").open = true));
 
-fromHash(location.hash);
+takeLink();
 restHash = toHash();
 history.replaceState({ rest: restHash }, "", restHash);
 buildForm();

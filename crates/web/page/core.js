@@ -125,23 +125,37 @@ function toHash() {
   for (const k of ["step", "integ"]) if (state[k]) q.set(k, state[k]);
   return "#" + q.toString();
 }
+// takes the address; what of it was not taken and what is used instead, in words
 function fromHash(hash) {
-  const q = new URLSearchParams(hash.replace(/^#/, ""));
-  const number = (text, { least, most, start }) => {
-    const x = Number(text);
-    return text !== null && text !== "" && Number.isFinite(x) ? Math.min(most, Math.max(least, x)) : start;
+  const q = new URLSearchParams(hash.replace(/^#/, "")), not = [];
+  const refuse = (name, used) => not.push(`${name} = ${q.get(name).slice(0, 40)} (${used})`);
+  const number = (name, { least, most, start, unit }) => {
+    const text = q.get(name), x = Number(text);
+    if (text === null) return start;
+    const used = text !== "" && Number.isFinite(x) ? Math.min(most, Math.max(least, x)) : start;
+    if (used !== x || text === "") refuse(name, withUnit(used, unit));
+    return used;
   };
-  state.kind = KINDS[q.get("kind")] ? q.get("kind") : "block";
+  const oneOf = (name, all, usual) => {
+    if (q.get(name) === null || all.includes(q.get(name))) return q.get(name) ?? usual;
+    refuse(name, usual || "as the program has it");
+    return usual;
+  };
+  state.kind = oneOf("kind", Object.keys(KINDS), "block");
+  state.u = oneOf("u", ["m", "ft"], "m");
   state.values = {};
-  for (const [name, field] of Object.entries(fields())) state.values[name] = number(q.get(name), field);
-  state.u = q.get("u") === "ft" ? "ft" : "m";
-  state.rec = ["elcentro", "file", "pulse"].includes(q.get("rec")) ? q.get("rec") : "elcentro";
-  for (const k of ["scale", "amp", "per"]) state[k] = number(q.get(k), MOTION[k]);
+  for (const [name, field] of Object.entries(fields())) state.values[name] = number(name, field);
+  state.rec = oneOf("rec", ["elcentro", "file", "pulse"], "elcentro");
+  for (const k of ["scale", "amp", "per"]) state[k] = number(k, MOTION[k]);
   for (const k of ["file", "comp", "dt", "units"]) state[k] = q.get(k) ?? "";
   state.vert = q.get("vert") === "1";
-  state.prog = PROGRAMS[q.get("prog")] ? q.get("prog") : "sap2000";
+  state.prog = oneOf("prog", Object.keys(PROGRAMS), "sap2000");
   state.step = goodStep(Number(q.get("step"))) ? Number(q.get("step")) : "";
-  state.integ = PROGRAMS[state.prog].integrators.includes(q.get("integ")) ? q.get("integ") : "";
+  if (q.get("step") && state.step === "") refuse("step", stepGiven() ? `${stepGiven()} s` : "as the run finds it");
+  state.integ = oneOf("integ", PROGRAMS[state.prog].integrators, "");
+  const known = ["kind", "u", "rec", "scale", "amp", "per", "file", "comp", "dt", "units", "vert", "prog", "step", "integ", ...Object.values(KINDS).flatMap((kind) => Object.keys(kind.fields))];
+  for (const name of q.keys()) if (!known.includes(name)) not.push(`${name.slice(0, 40)} (not known)`);
+  return not.length > 0 ? `Of the link these values are not taken, and what stands in brackets is used: ${not.join(", ")}.` : "";
 }
 
 // ---- the case file: what `tune run` reads
