@@ -4,7 +4,7 @@
 //! are comments.
 
 use super::column;
-use super::header::{self, is_comment, step_in};
+use super::header::{self, TimeUnit, is_comment, step_in};
 use super::parsed::{Parsed, Samples, mean};
 use super::text::{lines, number, precision, quote};
 use super::timing::Times;
@@ -35,10 +35,11 @@ pub(super) fn parse(file: &str, text: &str, options: &ReadOptions) -> Result<Par
 /// The series that a table of one column, of two, or of bare values holds; `names` of its columns.
 fn series(
     file: &str,
-    table: NumberTable,
+    mut table: NumberTable,
     names: &[&str],
     options: &ReadOptions,
 ) -> Result<Parsed, RecordError> {
+    let milliseconds = table.converts_milliseconds(file, names)?;
     let of_columns = || table.header.last().map(|(_, line)| *line);
     let units = units::declared(&table.header, table.column_name.or_else(of_columns));
     let quantity = header::quantity(&table.header, names);
@@ -67,7 +68,7 @@ fn series(
     };
     let parsed =
         Parsed::bare(Samples { units, quantity, dt, dt_rounding, values, ..Samples::default() });
-    Ok(Parsed { row_by_row, ..parsed })
+    Ok(Parsed { row_by_row, milliseconds, ..parsed })
 }
 
 /// Whether a text holds columns of numbers, at least two rows of them.
@@ -242,6 +243,30 @@ impl<'a> NumberTable<'a> {
         let names: Vec<&str> = kept.iter().filter_map(|i| names.get(*i).copied()).collect();
         let column_name = names.last().copied();
         Ok((Self { columns: kept.len(), values, column_name, ..self }, names))
+    }
+
+    /// Whether a first column of times is in ms by its name, and so was converted to s.
+    ///
+    /// # Errors
+    /// It is in another unit.
+    fn converts_milliseconds(&mut self, file: &str, names: &[&str]) -> Result<bool, RecordError> {
+        let Some((line, last)) = self.header.last().filter(|_| self.columns > 1) else {
+            return Ok(false);
+        };
+        // names with blanks in them are more fields than columns
+        let unit = match names.first() {
+            Some(name) => TimeUnit::of(name),
+            None => TimeUnit::of(last).filter(|_| fields(last).len() > self.columns),
+        };
+        match unit {
+            Some(TimeUnit::Milliseconds) => self.times.take_as_milliseconds(),
+            Some(TimeUnit::Other(unit)) => {
+                let (file, unit) = (file.to_owned(), quote(unit));
+                return Err(RecordError::TimeUnit { file, line: *line, unit });
+            }
+            Some(TimeUnit::Seconds) | None => return Ok(false),
+        }
+        Ok(true)
     }
 
     /// Refuse a first column of two that is no time.

@@ -94,6 +94,8 @@ pub enum RecordError {
          cm/s2 or mm/s2"
     )]
     NoUnits { file: String },
+    #[error("{file}, line {line}: times in '{unit}' are not known; give them in s or in ms")]
+    TimeUnit { file: String, line: usize, unit: String },
     #[error("{file}: the header speaks of {quantity}, not of acceleration; give the accelerogram")]
     NotAcceleration { file: String, quantity: &'static str },
     #[error("{file}: has {found}; name the file of one, or leave the vertical motion out")]

@@ -58,6 +58,61 @@ pub(super) fn is_time(name: &str) -> bool {
     word == "t" || word.starts_with("time") || word.starts_with("zeit")
 }
 
+/// The unit of a column of times.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum TimeUnit<'a> {
+    Seconds,
+    Milliseconds,
+    /// As the header has it.
+    Other(&'a str),
+}
+
+impl<'a> TimeUnit<'a> {
+    /// Of a word that names one.
+    fn named(word: &'a str) -> Option<Self> {
+        let lower = word.trim_end_matches('.').to_lowercase();
+        let other =
+            ["min", "mins", "h", "hr", "hrs", "us", "usec", "\u{b5}s", "\u{3bc}s", "ns", "d"];
+        match lower.as_str() {
+            "s" | "sec" | "secs" | "sek" | "seg" => Some(Self::Seconds),
+            "ms" | "msec" | "msecs" => Some(Self::Milliseconds),
+            _ if lower.starts_with("second") || lower.starts_with("sekund") => Some(Self::Seconds),
+            _ if lower.starts_with("millis") => Some(Self::Milliseconds),
+            _ if other.contains(&lower.as_str())
+                || ["minute", "hour", "day", "micros", "nanos"]
+                    .iter()
+                    .any(|name| lower.starts_with(name)) =>
+            {
+                Some(Self::Other(word))
+            }
+            _ => None,
+        }
+    }
+
+    /// Of a column's name, or of a line of names that begins with it: `time (ms)`, `t_ms`, `[ms]`.
+    /// None where it names none.
+    pub(super) fn of(name: &'a str) -> Option<Self> {
+        let name = name.trim_start_matches(|c: char| !c.is_alphanumeric());
+        let end = name.find(|c: char| !c.is_alphanumeric()).unwrap_or(name.len());
+        let (first, rest) = name.split_at(end);
+        if !is_time(first) {
+            // the line below the names holds the units
+            let alone = !rest.contains(char::is_alphanumeric);
+            return Self::named(first).filter(|_| alone);
+        }
+        let rest = rest.trim_start();
+        let Some(inside) = rest.strip_prefix(['[', '(']) else {
+            let rest = rest.trim_start_matches(|c: char| !c.is_alphanumeric());
+            let rest = rest.strip_prefix("in ").unwrap_or(rest);
+            return rest.split(|c: char| !c.is_alphanumeric()).next().and_then(Self::named);
+        };
+        let inside = inside.split([']', ')']).next().unwrap_or(inside).trim();
+        // "(from the trigger)" is no unit
+        let word = inside.split_whitespace().next()?;
+        Self::named(word).or_else(|| (word == inside).then_some(Self::Other(inside)))
+    }
+}
+
 fn is_abscissa_of_spectrum(name: &str) -> bool {
     let word = first_word(name);
     word.starts_with("period")
@@ -131,14 +186,21 @@ pub(super) fn step_in(line: &str) -> Option<(f64, f64)> {
                     .find(|&(at, _)| is_word(at, name))
                     .map(|(at, _)| &lower[at + name.len()..])
             })?;
-    let token = after
+    let mut tokens = after
         .split(|c: char| {
             c.is_whitespace() || matches!(c, '=' | ':' | ',' | ';' | '(' | ')' | '[' | ']')
         })
-        .map(|token| token.trim_end_matches("sec").trim_end_matches('s'))
-        .find(|token| !token.is_empty())?;
+        .filter(|token| !token.is_empty());
+    let first = tokens.next()?;
+    let token = first.trim_end_matches(|c: char| c.is_alphabetic());
+    let unit = if token == first { tokens.next().unwrap_or("") } else { &first[token.len()..] };
+    let factor = match TimeUnit::named(unit) {
+        None | Some(TimeUnit::Seconds) => 1.0,
+        Some(TimeUnit::Milliseconds) => 1e-3,
+        Some(TimeUnit::Other(_)) => return None,
+    };
     let dt = number(token).filter(|dt| dt.is_finite() && *dt > 0.0)?;
-    Some((dt, 0.5 * 10_f64.powi(precision(token).0)))
+    Some((dt * factor, 0.5 * factor * 10_f64.powi(precision(token).0)))
 }
 
 #[cfg(test)]
@@ -192,5 +254,37 @@ mod tests {
         assert_eq!(step_in("# width 3, dt=.02sec"), Some((0.02, 0.005)));
         assert_eq!(step_in("# t, a"), None);
         assert_eq!(step_in("# dt unknown"), None);
+        assert_eq!(step_in("# dt = 5 ms"), Some((0.005, 0.5e-3)));
+        assert_eq!(step_in("# dt = 5ms"), Some((0.005, 0.5e-3)));
+        assert_eq!(step_in("# dt = 0.5 min"), None);
+    }
+
+    #[test]
+    fn names_of_columns_tell_the_unit_of_times() {
+        use TimeUnit::{Milliseconds as Ms, Other, Seconds as S};
+        for (name, unit) in [
+            ("time (ms)", Some(Ms)),
+            ("t [ms]", Some(Ms)),
+            ("Time [msec]", Some(Ms)),
+            ("time_ms", Some(Ms)),
+            ("Time(milliseconds)   acc (g)", Some(Ms)),
+            ("time in ms", Some(Ms)),
+            ("[ms]", Some(Ms)),
+            ("t [s]", Some(S)),
+            ("Time (sec.)", Some(S)),
+            ("time_s", Some(S)),
+            ("t, s", Some(S)),
+            ("time (min)", Some(Other("min"))),
+            ("t [h]", Some(Other("h"))),
+            ("time [samples]", Some(Other("samples"))),
+            ("time (from the trigger)", None),
+            ("time", None),
+            ("t", None),
+            ("time   acc (g)", None),
+            ("acc [m/s2]", None),
+            ("ms-1", None),
+        ] {
+            assert_eq!(TimeUnit::of(name), unit, "{name}");
+        }
     }
 }

@@ -12,6 +12,8 @@ pub enum Notice {
     Taken { file: String, taken: String, pga_g: f64, others: String },
     /// Bare values in several columns are one series.
     RowByRow { file: String, columns: usize, samples: usize },
+    /// The times were in ms by the name of their column.
+    Milliseconds { file: String, dt: f64 },
     /// The file has vertical components alone.
     OnlyVertical { file: String, component: String },
     /// The vertical component goes on after the record's end.
@@ -20,6 +22,10 @@ pub enum Notice {
     Offset { file: String, component: String, share: f64 },
     /// A peak that few earthquakes reach.
     Strong { file: String, component: String, pga_g: f64 },
+    /// A time step that few instruments have.
+    Coarse { file: String, component: String, dt: f64 },
+    /// A peak velocity that no earthquake reaches.
+    Fast { file: String, component: String, pgv: f64 },
     /// A peak below what an instrument in a city resolves.
     Weak { file: String, component: String, pga_g: f64 },
 }
@@ -29,6 +35,10 @@ impl Notice {
     pub(crate) const OFFSET_SHARE: f64 = 0.1;
     /// PGA above this is said (g): no earthquake has been recorded with it.
     pub(crate) const STRONG_G: f64 = 5.0;
+    /// A time step of this and more is said (s): accelerograms have 0.001 to 0.02 s.
+    pub(crate) const COARSE_S: f64 = 0.05;
+    /// PGV above this is said (m/s): hardly any earthquake has been recorded with it.
+    pub(crate) const FAST_M_PER_S: f64 = 3.0;
     /// PGA below this is said (g).
     pub(crate) const WEAK_G: f64 = 1e-4;
 }
@@ -66,6 +76,9 @@ impl fmt::Display for Notice {
                  {samples} samples; if each \
                  column is a component, choose one with --column"
             ),
+            Self::Milliseconds { file, dt } => {
+                write!(f, "{file}: times in ms, as their column is named, make a step of {dt} s")
+            }
             Self::OnlyVertical { file, component } => {
                 write!(
                     f,
@@ -91,6 +104,22 @@ impl fmt::Display for Notice {
                 write!(
                     f,
                     "{file}: {} has a peak of {pga_g:.3} g, above 5 g; check the unit",
+                    who(component)
+                )
+            }
+            Self::Coarse { file, component, dt } => {
+                write!(
+                    f,
+                    "{file}: {} has a time step of {dt} s, accelerograms have 0.001 to 0.02 s; \
+                     check the unit of the times",
+                    who(component)
+                )
+            }
+            Self::Fast { file, component, pgv } => {
+                write!(
+                    f,
+                    "{file}: {} has a peak velocity of {pgv:.3} m/s, above 3 m/s; check the unit \
+                     and the time step",
                     who(component)
                 )
             }

@@ -12,6 +12,8 @@ pub(super) struct Parsed {
     pub chosen: bool,
     /// Columns of bare values that were read row by row, where there are several.
     pub row_by_row: Option<usize>,
+    /// Its times were in ms.
+    pub milliseconds: bool,
 }
 
 /// One component.

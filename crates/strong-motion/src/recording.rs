@@ -49,6 +49,8 @@ pub struct Recording {
     chosen: bool,
     /// Columns of bare values that were read row by row.
     row_by_row: Option<usize>,
+    /// Its times were in ms.
+    milliseconds: bool,
     /// The vertical component asked for, and how many samples after the record's end it has.
     vertical: Option<(Record, usize)>,
     pub(super) file: String,
@@ -130,10 +132,18 @@ impl Recording {
             return Err(RecordError::Empty { file: file.clone() });
         }
         let (station, asked) = (parsed.station, options.component.is_some());
-        let (chosen, row_by_row) = (parsed.chosen, parsed.row_by_row);
-        let (taken, vertical, file) = (0, None, file.clone());
-        let mut recording =
-            Self { format, station, components, taken, asked, chosen, row_by_row, vertical, file };
+        let mut recording = Self {
+            format,
+            station,
+            components,
+            taken: 0,
+            asked,
+            chosen: parsed.chosen,
+            row_by_row: parsed.row_by_row,
+            milliseconds: parsed.milliseconds,
+            vertical: None,
+            file: file.clone(),
+        };
         recording.taken = match &options.component {
             Some(wanted) => recording.find(wanted)?,
             None => recording.strongest_horizontal(),
@@ -177,6 +187,9 @@ impl Recording {
         let mut notices = Vec::new();
         if let Some(columns) = self.row_by_row {
             notices.push(Notice::RowByRow { file: file(), columns, samples: taken.record.len() });
+        }
+        if self.milliseconds {
+            notices.push(Notice::Milliseconds { file: file(), dt: taken.record.dt });
         }
         if !self.asked && self.components.len() > 1 {
             let others = self.components.iter().enumerate().filter(|(i, _)| *i != self.taken);
@@ -282,6 +295,16 @@ impl Component {
                 component: component.clone(),
                 share,
             });
+        }
+        let dt = self.record.dt;
+        if dt >= Notice::COARSE_S * (1.0 - 1e-9) {
+            let (file, component) = (file.clone(), component.clone());
+            notices.push(Notice::Coarse { file, component, dt });
+        }
+        let pgv = self.record.measures().pgv.value.abs();
+        if pgv > Notice::FAST_M_PER_S {
+            let (file, component) = (file.clone(), component.clone());
+            notices.push(Notice::Fast { file, component, pgv });
         }
         if pga_g > Notice::STRONG_G {
             notices.push(Notice::Strong { file, component, pga_g });

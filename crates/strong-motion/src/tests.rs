@@ -285,6 +285,57 @@ fn peaks_that_earthquakes_do_not_have_are_said() {
     assert_eq!(notices(3.0), []);
 }
 
+/// One motion, its times in s and in ms.
+#[test]
+fn times_in_milliseconds_are_converted_and_other_units_refused() {
+    let parse = |header: &str, by: f64| {
+        let row = |i: i32| {
+            format!("{},{}\n", f64::from(i) * 0.005 * by, 0.1 * f64::from(1 - 2 * (i % 2)))
+        };
+        let text = format!("{header}\n{}", (0..40).map(row).collect::<String>());
+        Recording::parse("x.csv", text.as_bytes(), &ReadOptions::default())
+    };
+    let seconds = parse("time (s),acc (g)", 1.0).unwrap();
+    assert_eq!((seconds.component().record.dt, seconds.notices()), (0.005, vec![]));
+    for header in ["time (ms),acc (g)", "Time [msec],a [g]", "t_ms,acc_g", "# t [ms], a [g]"] {
+        let read = parse(header, 1e3).unwrap();
+        assert_eq!(read.component().record, seconds.component().record, "{header}");
+        let told = read.notices();
+        assert_eq!(told, [Notice::Milliseconds { file: "x.csv".into(), dt: 0.005 }]);
+        assert_eq!(
+            told[0].to_string(),
+            "x.csv: times in ms, as their column is named, make a step of 0.005 s"
+        );
+    }
+    // names with blanks, between blanks
+    let text = "time (ms)  acc (m/s2)\n0.0 0.1\n0.5 -0.1\n1.0 0.2\n1.5 -0.1\n";
+    let read = Record::parse("x", text.as_bytes(), &ReadOptions::default()).unwrap();
+    assert_eq!(read.dt, 0.0005);
+    let refused = parse("# a comment\ntime (min),acc (g)", 1.0 / 60.0).unwrap_err();
+    assert_eq!(
+        refused.to_string(),
+        "x.csv, line 2: times in 'min' are not known; give them in s or in ms"
+    );
+}
+
+/// 2 m/s2 for 2 s and back: 4 m/s.
+#[test]
+fn time_steps_and_velocities_that_records_do_not_have_are_said() {
+    let notices = |dt: f64, halves: usize| {
+        let line = |i: usize| if i < halves { "2.0\n" } else { "-2.0\n" };
+        let text = (0..2 * halves).map(line).collect::<String>();
+        let text = format!("# dt = {dt} s, acceleration in m/s2\n{text}");
+        Recording::parse("x.txt", text.as_bytes(), &ReadOptions::default()).unwrap().notices()
+    };
+    assert!(matches!(notices(0.05, 4)[..], [Notice::Coarse { dt: 0.05, .. }]));
+    assert_eq!(notices(0.04, 4), []);
+    let fast = notices(0.01, 200);
+    let [Notice::Fast { pgv, .. }] = fast[..] else { panic!("{fast:?}") };
+    // but for half of the step in which it turns
+    assert!((pgv - 4.0).abs() < 0.02, "{pgv}");
+    assert_eq!(notices(0.01, 140), []);
+}
+
 #[test]
 fn records_are_checked_scaled_cut_and_interpolated() {
     let record = Record::new("r", 0.5, vec![0.0, 1.0, -3.0]).unwrap();

@@ -58,6 +58,12 @@ impl Times {
         }
     }
 
+    /// Times in ms become times in s.
+    pub(super) fn take_as_milliseconds(&mut self) {
+        self.times.iter_mut().for_each(|t| *t /= 1e3);
+        self.finest -= 3;
+    }
+
     /// Every one is larger than the one before; at least three of them.
     pub(super) fn run_upwards(&self) -> bool {
         self.times.len() > 2 && self.times.windows(2).all(|pair| pair[1] > pair[0])
