@@ -53,6 +53,13 @@ pub enum StructureError {
     )]
     Inertia { value: f64 },
     #[error(
+        "structure: rotational_inertia_kgm2 is {value:?}; a block of this size has at most \
+         {most:.4} kg m2, with all its mass at its corners: give it about the centre of mass and \
+         in kg m2, or leave it out for a solid block ({solid:.4})",
+        solid = .most / 3.0
+    )]
+    BeyondCorners { value: f64, most: f64 },
+    #[error(
         "structure: slenderness alpha = atan(width/(2 height)) is {alpha:.4} rad; rocking needs a \
          body between 0.005 and 0.9 rad: check width_m and height_m (of the \
          centre of mass) or total_height_m"
@@ -115,6 +122,10 @@ impl Structure {
             return Err(StructureError::Inertia { value });
         }
         let body = self.body::<f64>();
+        let most = body.inertia_at_radius();
+        if self.kind == Kind::Block && value > most * (1.0 + 1e-9) {
+            return Err(StructureError::BeyondCorners { value, most });
+        }
         let alpha = body.alpha();
         if !(0.005..=0.9).contains(&alpha) {
             return Err(StructureError::Slenderness { alpha });
@@ -164,6 +175,12 @@ impl<S: Scalar> Body<S> {
     /// Horizontal force on the mass that lifts the body, m g tan(alpha) (N).
     pub fn lifting_force(&self) -> S {
         self.mass * real::<S>(GRAVITY) * self.half_width / self.height
+    }
+
+    /// m R^2, what I_cg is where all mass stands R from the centre (kg m2): within the outline of a
+    /// block, 2h by 2b, no more is to be had.
+    pub fn inertia_at_radius(&self) -> S {
+        self.mass * (self.half_width * self.half_width + self.height * self.height)
     }
 
     /// m R^2 / I0, with I0 = I_cg + m R^2: 1 for an A-frame, 3/4 for a solid block.
@@ -222,6 +239,23 @@ mod tests {
     fn a_solid_block_has_four_thirds_of_m_r_squared() {
         let body = Structure::block(2.0, 0.5, 100.0).unwrap().body::<f64>();
         assert_relative_eq!(body.mass_share(), 0.75, epsilon = 1e-15);
+    }
+
+    /// Four masses of m/4 at the corners of a block: I_cg = m (b^2 + h^2), by Steiner.
+    #[test]
+    fn no_block_has_more_inertia_than_with_its_mass_at_its_corners() {
+        let (b, h, quarter) = (0.25, 1.0, 25.0);
+        let corners = [(-b, -h), (b, -h), (b, h), (-b, h)];
+        let most: f64 = corners.map(|(x, y): (f64, f64)| quarter * (x * x + y * y)).iter().sum();
+        let block = Structure::block(2.0 * h, 2.0 * b, 4.0 * quarter).unwrap();
+        let with = |inertia| Structure { rotational_inertia_kgm2: inertia, ..block }.checked();
+        assert!(with(most).is_ok());
+        let refused = with(1.001 * most).unwrap_err();
+        assert_eq!(refused, StructureError::BeyondCorners { value: 1.001 * most, most });
+        assert!(refused.to_string().contains("at most 106.2500 kg m2"), "{refused}");
+        // masses on legs reach beyond their feet
+        let kind = Kind::AFrame;
+        assert!(Structure { kind, rotational_inertia_kgm2: 2.0 * most, ..block }.checked().is_ok());
     }
 
     #[test]

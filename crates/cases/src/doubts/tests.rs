@@ -92,6 +92,29 @@ fn densities_of_no_material_are_doubted() {
     );
 }
 
+/// m R^2 = 1e5 (10^2 + 1^2) = 1.01e7 kg m2, of a rigid A-frame and of one that gives.
+#[test]
+fn an_inertia_of_mass_beyond_the_feet_is_doubted() {
+    let frame = "[structure]\nkind = 'aframe'\nheight_m = 10.0\nwidth_m = 2.0\nmass_kg = 1e5\n";
+    let elastic = "ea_n = 1e10\nei_nm2 = 1e9\nfoot_mass_kg = 5e3\ndamping_ratio = 0.02\n";
+    for (inertia, doubted) in [("1.00e7", false), ("1.02e7", true), ("1e11", true)] {
+        let given = format!("{frame}rotational_inertia_kgm2 = {inertia}\n");
+        let rigid = Case::parse("case.toml", &given).unwrap().doubts_of_structure();
+        let gives = ElasticCase::parse("case.toml", &format!("{given}{elastic}")).unwrap();
+        for doubts in [rigid, gives.doubts_of_structure()] {
+            let found = doubts.iter().any(|doubt| {
+                matches!(doubt, Doubt::Inertia { m_r2, .. }
+                if (m_r2 / 1.01e7 - 1.0).abs() < 1e-12)
+            });
+            assert_eq!(found, doubted, "{inertia}: {doubts:?}");
+        }
+    }
+    let block = "[structure]\nkind = 'block'\ntotal_height_m = 2.0\nwidth_m = 0.5\n\
+        mass_kg = 100.0\nrotational_inertia_kgm2 = 1.06e6\n";
+    let refused = Case::parse("case.toml", block).unwrap_err().to_string();
+    assert!(refused.contains("at most 106.2500 kg m2"), "{refused}");
+}
+
 #[test]
 fn motions_that_nobody_feels_or_that_end_early_are_doubted() {
     let record = || Record::new("a", 0.01, vec![0.0, 0.04, -0.02, 0.3]).unwrap();
