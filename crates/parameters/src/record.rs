@@ -50,7 +50,7 @@ pub struct VerticalRow {
     pub name: String,
     /// Peak of the part used, scaled.
     pub pga_g: f64,
-    /// As of the record; upwards is positive.
+    /// As of the record, of the samples up to its end; upwards is positive.
     pub fnv1a_64: String,
     pub source: SourceRow,
 }
@@ -162,12 +162,11 @@ impl RecordRow {
             self.component(parameters, source, (&self.name, self.fnv1a_64.as_ref()), Record::read)?;
         let Some(row) = &self.vertical else { return Ok(record) };
         let remembered = (row.name.as_str(), Some(&row.fnv1a_64));
-        Ok(record.with_vertical(self.component(
-            parameters,
-            &row.source,
-            remembered,
-            Vertical::read,
-        )?)?)
+        // the hash is of what was used: up to the end of the record
+        let read =
+            |path: &Path, options: &ReadOptions| Ok(Vertical::read(path, options)?.cut_to(&record));
+        let vertical = self.component(parameters, &row.source, remembered, read)?;
+        Ok(record.with_vertical(vertical)?)
     }
 
     /// A component again by its source, read by `read`; its name and hash are remembered.
@@ -176,7 +175,7 @@ impl RecordRow {
         parameters: &Path,
         source: &SourceRow,
         (called, hash): (&str, Option<&String>),
-        read: fn(&Path, &ReadOptions) -> Result<Record, RecordError>,
+        read: impl Fn(&Path, &ReadOptions) -> Result<Record, RecordError>,
     ) -> Result<Record, RememberedError> {
         let name = || parameters.display().to_string();
         let (record, file) = match source {

@@ -191,7 +191,8 @@ pub fn as_record(vertical: &Vertical, dt: f64) -> Record {
 impl Record {
     /// A component of the same time step without the samples after the end of `record`: the
     /// components of one instrument often differ by a few.
-    fn cut_to(mut self, record: &Self) -> Self {
+    #[must_use]
+    pub fn cut_to(mut self, record: &Self) -> Self {
         if self.has_step_of(record) {
             self.accel.truncate(record.len());
         }

@@ -64,6 +64,35 @@ fn a_file_is_found_from_the_folder_of_the_parameters_wherever_both_are_moved() {
     assert!(matches!(written.excitation(&path), Err(RememberedError::Missing { .. })));
 }
 
+/// Components of one instrument differ by a few samples; the springs are of those up to the end of
+/// the horizontal one, and so is the hash.
+#[test]
+fn a_vertical_component_that_goes_on_after_the_record_is_found_again() {
+    let dir = tempfile::tempdir().unwrap();
+    let [across, up] = ["across.txt", "up.txt"].map(|name| dir.path().join(name));
+    std::fs::write(&across, "0.1\n0.3\n-0.2\n").unwrap();
+    let options = ReadOptions { dt: Some(0.02), units: Some(Units::G), ..Default::default() };
+    let with_up = ReadOptions { vertical: Some(up.clone().into()), ..options.clone() };
+    for (more, duration_s) in [("", None), ("0.3\n-0.1\n", None), ("0.3\n", Some(0.02))] {
+        std::fs::write(&up, format!("0.05\n-0.1\n0.2\n{more}")).unwrap();
+        let record = Record::read(&across, &with_up).unwrap();
+        let excitation = Excitation { record, scale: 1.0, duration_s };
+        let written = again(&parameters(&excitation, dir.path()));
+        // FNV-1a of the step and the three samples that are used, whatever follows them
+        let used = [0.05, -0.1, 0.2].map(|g| g * 9.81);
+        let numbers = [0.02].into_iter().chain(used).flat_map(f64::to_le_bytes);
+        let row = written.record.as_ref().unwrap().vertical.as_ref().unwrap();
+        assert_eq!(row.fnv1a_64, format!("{:016x}", strong_motion::fnv1a(numbers)));
+        let found = written.excitation(&dir.path().join("parameters.json")).unwrap();
+        assert_eq!(found.record.up(), used);
+        assert_eq!(found.used().unwrap(), excitation.used().unwrap());
+        // one that has changed is still told
+        std::fs::write(&up, format!("0.05\n-0.1\n0.21\n{more}")).unwrap();
+        let changed = written.excitation(&dir.path().join("parameters.json"));
+        assert!(matches!(changed, Err(RememberedError::Changed { .. })));
+    }
+}
+
 #[test]
 fn the_embedded_record_is_remembered_as_such_and_numbers_are_said_to_be_nowhere() {
     let el_centro = Excitation { scale: 2.0, ..Excitation::whole(Record::el_centro()) };
