@@ -364,3 +364,27 @@ fn springs_for_a_program_are_judged_in_its_steps() {
     assert_eq!((output.status.code(), said.lines().count()), (Some(2), 1), "{said}");
     assert!(said.contains("no springs for steps of one size"), "{said}");
 }
+
+/// Peaks by the file's header: 41.6 mm/s2 along S16W, 194.0 along S74E, 27.3 upwards.
+#[test]
+fn a_component_of_files_with_several_is_chosen_and_vertical_motions_are_said_to_be_left_out() {
+    let dir = folder();
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/records/20180212_211557_WPWS_20.V2A");
+    for (more, mm_per_s2) in [(&[][..], 194.0), (&["--component", "S16W"][..], 41.6)] {
+        let output = validate(dir.path(), &[&[file, "--no-figures"], more].concat());
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.success(), "{stderr}");
+        assert_eq!(stderr.contains("choose with --component"), more.is_empty(), "{stderr}");
+        let told = stderr.lines().find(|line| line.starts_with("vertical motions are left out"));
+        let told = told.unwrap();
+        assert!(told.contains("of 1 file") && told.contains("0.002783 g beside"), "{told}");
+        let all: Value =
+            serde_json::from_slice(&fs::read(dir.path().join("out/validate.json")).unwrap())
+                .unwrap();
+        let pga = all["records"][0]["pga_g"].as_f64().unwrap();
+        assert!((pga * 9810.0 - mm_per_s2).abs() <= 0.05, "{pga}");
+    }
+    let output = validate(dir.path(), &[file, "--component", "N00E"]);
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert!(stderr.contains("there is no component N00E; it has S16W"), "{stderr}");
+}

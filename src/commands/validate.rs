@@ -15,14 +15,17 @@ use self::model::{JudgedProgram, JudgedSprings};
 use super::{CommandError, common, progress::Progress, run::threads, terminal};
 use decks::Stepping;
 use dynamics::spring::ChainRow;
-use files::message::one_line;
+use files::message::{one_line, significant};
 use parameters::Parameters;
 use rocking::{conditioning::ILL_CONDITIONED, structure::Structure, synthetic};
 use run_folder::{
     folder::Folder, folder::identity, folder::of_one_run, pictures::subtitle, place::check_folder,
     place::write_file,
 };
-use strong_motion::{Notice, ReadOptions, Record, RecordError, Recording, Units};
+use strong_motion::{
+    Notice, ReadOptions, Record, RecordError, Recording, Units,
+    excitation::{Excitation, VerticalLeftOut},
+};
 use validation::{Validation, Validator};
 
 /// Options of `tune validate`.
@@ -47,6 +50,10 @@ pub struct ValidateOptions {
     /// g, m/s2, cm/s2 or mm/s2, where the files do not say
     #[arg(long, requires = "given")]
     units: Option<Units>,
+    /// Component, by name or by azimuth in degrees, of files with several [default: the stronger
+    /// horizontal one of each]
+    #[arg(long, value_name = "NAME", requires = "given", allow_hyphen_values = true)]
+    component: Option<String>,
     /// Factor on the acceleration of the files
     #[arg(long, value_name = "FACTOR", requires = "given", allow_negative_numbers = true)]
     scale: Option<f64>,
@@ -85,6 +92,9 @@ pub struct ValidateOptions {
     #[arg(long)]
     quiet: bool,
 }
+
+/// What there is to say of a file: its notices, its vertical motion.
+type FileTold = (Vec<Notice>, Option<VerticalLeftOut>);
 
 /// Where the records come from: files first, in the order of their names, then those made from the
 /// seed, earthquakes last.
@@ -127,18 +137,20 @@ impl RecordsSource {
         let read = |file: &PathBuf| {
             let recording = Recording::read(file, &self.read)?;
             let notices = recording.notices();
-            if let Some(scale) = self.scale {
-                recording.into_record().scaled(scale)?;
-            }
-            Ok(notices)
+            let scale = self.scale.unwrap_or(1.0);
+            let record = recording.into_record();
+            record.scaled(scale)?;
+            let left_out = Excitation { scale, ..Excitation::whole(record) }.vertical_left_out();
+            Ok((notices, left_out))
         };
-        let notices: Vec<Result<Vec<Notice>, RecordError>> = parallel::map(&self.files, read);
-        let mut unread = Vec::new();
+        let all: Vec<Result<FileTold, RecordError>> = parallel::map(&self.files, read);
+        let (mut unread, mut vertical) = (Vec::new(), Vec::new());
         let files = std::mem::take(&mut self.files);
-        for (file, notices) in files.into_iter().zip(notices) {
-            match notices {
-                Ok(notices) => {
+        for (file, found) in files.into_iter().zip(all) {
+            match found {
+                Ok((notices, left_out)) => {
                     notices.iter().for_each(terminal::stderr);
+                    vertical.extend(left_out.map(|left_out| (file.clone(), left_out)));
                     self.files.push(file);
                 }
                 Err(error) => {
@@ -148,6 +160,7 @@ impl RecordsSource {
                 }
             }
         }
+        tell_vertical(&vertical);
         unread
     }
 
@@ -166,6 +179,23 @@ impl RecordsSource {
         }
         format!("records: {}", parts.join(", "))
     }
+}
+
+/// Say of the vertical components of files that they are left out: how many, and the one that is
+/// largest beside its horizontal motion.
+fn tell_vertical(all: &[(PathBuf, VerticalLeftOut)]) {
+    let share = |left_out: &VerticalLeftOut| left_out.peak_g / left_out.horizontal_g;
+    let most = all.iter().max_by(|(_, a), (_, b)| share(a).total_cmp(&share(b)));
+    let Some((file, most)) = most else { return };
+    terminal::stderr(format_args!(
+        "vertical motions are left out, here of {} {}: of {} {} g beside {} g across{}",
+        all.len(),
+        if all.len() == 1 { "file" } else { "files" },
+        one_line(&file.display().to_string()),
+        significant(most.peak_g, 4),
+        significant(most.horizontal_g, 4),
+        if all.len() == 1 { "" } else { ", the largest share" },
+    ));
 }
 
 /// Every record file that was named, once, those of folders in the order of their names.
@@ -233,7 +263,12 @@ pub fn run(o: &ValidateOptions) -> Result<(), CommandError> {
     threads(o.jobs)?;
     let mut source = RecordsSource {
         files: files(o)?,
-        read: ReadOptions { dt: o.dt, units: o.units, ..ReadOptions::default() },
+        read: ReadOptions {
+            dt: o.dt,
+            units: o.units,
+            component: o.component.clone(),
+            ..ReadOptions::default()
+        },
         scale: o.scale,
         synthetic: o.synthetic.unwrap_or(0) as usize,
         earthquakes: o.earthquakes.unwrap_or(0) as usize,
