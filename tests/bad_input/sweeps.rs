@@ -140,3 +140,18 @@ fn a_motion_that_no_other_can_be_like_is_refused() {
         );
     }
 }
+
+#[test]
+fn elastic_structures_are_said_to_be_none_for_sweeps() {
+    let rest = format!("{GROUND}{LEVELS}");
+    let pier = "[[structure]]\nkind = \"pier\"\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 6e5\n\
+        footing_mass_kg = 6e4\nfooting_height_m = 1.5\nfrequency_hz = 2.0\ndamping_ratio = 0.02\n";
+    let words = ["line 4", "kind = \"pier\" is elastic; sweeps follow rigid bodies alone"];
+    sweep(&format!("{HEAD}{pier}{rest}"), &words);
+    let frame = BLOCK.replace("block", "aframe") + "ea_n = 1e9\nei_nm2 = 1e9\n";
+    let words = ["line 8", "ea_n and ei_nm2 are of an elastic A-frame; sweeps follow rigid"];
+    sweep(&format!("{HEAD}{frame}{rest}"), &words);
+    let spacing = "[levels]\nscale = { from = 1.0, to = 2.0, count = 3, spacing = \"lin\" }\n";
+    let words = ["line 11", "spacing is \"lin\"; give \"linear\" or \"log\""];
+    sweep(&format!("{HEAD}{BLOCK}{GROUND}{spacing}"), &words);
+}

@@ -80,6 +80,9 @@ impl RecordSection {
         if let Some(scale) = self.scale.filter(|scale| *scale == 0.0) {
             return refuse("record.scale", format!("{scale:?}"), NO_MOTION);
         }
+        if let Some(scale) = self.scale.filter(|scale| !scale.is_finite()) {
+            return refuse("record.scale", format!("{scale:?}"), "give a finite number");
+        }
         match (&self.component, &self.column) {
             (Some(component), Some(_)) => {
                 let remedy = "component and column choose the same; leave one of them out";

@@ -112,3 +112,13 @@ fn bad_values_are_named() {
             .starts_with("case.toml, line 7: max_omega_hz is \"stiff\"; write a number")
     );
 }
+
+#[test]
+fn a_scale_that_is_no_number_is_blamed_not_the_record() {
+    for scale in ["nan", "inf", "-inf"] {
+        let text = format!("{STRUCTURE}[record]\nscale = {scale}\n");
+        let refused = Case::parse("case.toml", &text).unwrap_err().to_string();
+        assert!(refused.contains("record.scale is"), "{refused}");
+        assert!(refused.contains("give a finite number"), "{refused}");
+    }
+}

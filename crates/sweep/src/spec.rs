@@ -45,6 +45,8 @@
 //! max_omega_hz = 2000.0
 //! ```
 
+mod elastic;
+
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -211,8 +213,11 @@ impl SweepSource {
     /// # Errors
     /// As [`SweepSource::read`].
     pub(crate) fn parse(path: String, text: String) -> Result<Self, SweepError> {
-        let spec = toml::from_str(&text).map_err(|e| parse_error(&path, &text, &e))?;
-        Ok(Self { path, text, spec })
+        match toml::from_str(&text) {
+            Ok(spec) => Ok(Self { path, text, spec }),
+            Err(e) => Err(elastic::refusal(&path, &text)
+                .unwrap_or_else(|| parse_error(&path, &text, &e).into())),
+        }
     }
 
     /// Where records' paths start.
@@ -222,8 +227,7 @@ impl SweepSource {
 
     /// An error at a value of the file.
     pub(crate) fn at<T>(&self, value: &Spanned<T>, message: impl Into<String>) -> SweepError {
-        let start = value.span().start.min(self.text.len());
-        let line = self.text[..start].matches('\n').count() + 1;
+        let line = line_of(&self.text, value);
         SweepError::Spec { path: self.path.clone(), line, message: message.into() }
     }
 
@@ -265,6 +269,11 @@ impl SweepSource {
             None => Ok(values.get_ref().all().to_vec()),
         }
     }
+}
+
+/// The line of a value of a text.
+fn line_of<T>(text: &str, value: &Spanned<T>) -> usize {
+    text[..value.span().start.min(text.len())].matches('\n').count() + 1
 }
 
 #[cfg(test)]

@@ -13,10 +13,8 @@ use serde::Deserialize;
 #[serde(try_from = "WrittenValues")]
 pub(crate) struct Values(Vec<f64>);
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy)]
 enum Spacing {
-    #[default]
     Linear,
     Log,
 }
@@ -27,8 +25,8 @@ struct Range {
     from: f64,
     to: f64,
     count: usize,
-    #[serde(default)]
-    spacing: Spacing,
+    /// "linear" unless given, or "log": told here, since an untagged enum forgets what was wrong.
+    spacing: Option<String>,
 }
 
 #[derive(Deserialize)]
@@ -67,7 +65,14 @@ impl TryFrom<WrittenValues> for Values {
 
 impl Range {
     fn values(&self) -> Result<Vec<f64>, String> {
-        let Self { from, to, count, spacing } = *self;
+        let Self { from, to, count, .. } = *self;
+        let spacing = match self.spacing.as_deref() {
+            None | Some("linear") => Spacing::Linear,
+            Some("log") => Spacing::Log,
+            Some(other) => {
+                return Err(format!("spacing is {other:?}; give \"linear\" or \"log\""));
+            }
+        };
         let rises = to > from;
         if !(2..=MOST).contains(&count) || !rises {
             return Err(format!(
@@ -132,6 +137,10 @@ mod tests {
             ("x = { from = 2, to = 1, count = 3 }", "to greater than from"),
             ("x = { from = 0.0, to = 1.0, count = 3, spacing = \"log\" }", "logarithm"),
             ("x = \"all\"", "give a number"),
+            (
+                "x = { from = 1.0, to = 2.0, count = 3, spacing = \"lin\" }",
+                "spacing is \"lin\"; give \"linear\" or \"log\"",
+            ),
         ] {
             let said = read(text).unwrap_err();
             assert!(said.contains(word), "{text}: {said}");
