@@ -5,6 +5,7 @@ use std::{convert::Infallible, str::FromStr};
 
 use serde::{Deserialize, Serialize};
 
+use super::Direction;
 use super::text::quote;
 
 /// A column of a table, as it is asked for.
@@ -46,12 +47,33 @@ pub(super) fn find(wanted: &str, columns: usize, names: &[&str]) -> Option<usize
     if let Some(number) = number {
         return number.checked_sub(1).filter(|index| *index < columns);
     }
-    let bare = |name: &str| name.split(['[', '(']).next().unwrap_or(name).trim().to_owned();
     let is =
         |name: &&str| name.eq_ignore_ascii_case(wanted) || bare(name).eq_ignore_ascii_case(wanted);
-    let mut found = (0..names.len()).filter(|i| is(&names[*i]));
-    // a name that two columns have says nothing
-    found.next().filter(|_| found.next().is_none())
+    let only = |test: &dyn Fn(usize) -> bool| {
+        let mut found = (0..names.len()).filter(|i| test(*i));
+        let first = found.next();
+        // a name that two columns have says nothing
+        (first.filter(|_| found.next().is_none()), first.is_some())
+    };
+    let (found, named) = only(&|i| is(&names[i]));
+    match Direction::of(wanted) {
+        Direction::Vertical if !named => only(&|i| is_vertical(i, names)).0,
+        _ => found,
+    }
+}
+
+/// A column's name without its unit: "acc_2 [g]" is "acc_2".
+fn bare(name: &str) -> String {
+    name.split(['[', '(']).next().unwrap_or(name).trim().to_owned()
+}
+
+/// Whether a column's name says that it is of the vertical motion: UP, UD, Z, V, vertical. V alone
+/// may be a velocity; beside a column of another direction it is none.
+pub(super) fn is_vertical(index: usize, names: &[&str]) -> bool {
+    let direction = |i: usize| names.get(i).map(|name| Direction::of(&bare(name)));
+    let across = |i| matches!(direction(i), Some(Direction::Azimuth(_) | Direction::Horizontal));
+    direction(index) == Some(Direction::Vertical)
+        && (!bare(names[index]).eq_ignore_ascii_case("v") || (0..names.len()).any(across))
 }
 
 /// The columns after the first `skipped`, for a message: "column 2 (acc1), column 3 (acc2)".
@@ -83,6 +105,16 @@ mod tests {
         assert_eq!(find("acc2 [m/s2]", 4, &names), Some(3));
         assert_eq!(list(1, 3, &names[..3]), "column 2 (acc1 [g]), column 3 (acc2 [g])");
         assert_eq!(list(1, 9, &[]), "column 2, column 3, column 4, column 5, ...");
+    }
+
+    #[test]
+    fn columns_of_the_vertical_motion_are_known_by_their_names() {
+        for name in ["UP", "ud", "Z", "V [g]", "vertical (cm/s2)", "Vertical"] {
+            assert!(is_vertical(2, &["time", "EW", name]), "{name}");
+            assert_eq!(find("up", 3, &["time", "EW", name]), Some(2), "{name}");
+        }
+        assert!(!is_vertical(2, &["t", "a", "v"]) && !is_vertical(1, &["t", "EW", "UP"]));
+        assert_eq!(find("up", 3, &["t", "UD", "Z"]), None);
     }
 
     #[test]

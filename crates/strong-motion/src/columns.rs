@@ -3,6 +3,9 @@
 //! semicolons, tabs or blanks, below any number of header lines; lines that start with #, % or //
 //! are comments.
 
+mod line;
+
+use self::line::{damaged_first_line, fields, has_decimal_commas};
 use super::column;
 use super::header::{self, TimeUnit, is_comment, step_in};
 use super::parsed::{Parsed, Samples, mean};
@@ -23,11 +26,25 @@ pub(super) fn parse(file: &str, text: &str, options: &ReadOptions) -> Result<Par
     let names = table.names();
     let asked = options.component.as_deref().filter(|_| table.columns > 1);
     let Some(wanted) = asked else { return series(file, table, &names, options) };
-    let (table, names) = table.chosen(file, wanted, &names)?;
-    let mut parsed = series(file, table, &names, options)?;
+    let all = &names;
+    let index = table.index(file, wanted, all)?;
+    let (chosen, names) = table.chosen(index, all);
+    let mut parsed = series(file, chosen, &names, options)?;
     parsed.chosen = true;
+    let direction =
+        if column::is_vertical(index, all) { Direction::Vertical } else { Direction::of(wanted) };
     for channel in &mut parsed.channels {
-        (channel.name, channel.direction) = (Some(wanted.trim().to_owned()), Direction::of(wanted));
+        (channel.name, channel.direction) = (Some(wanted.trim().to_owned()), direction);
+    }
+    // what cannot be read is none to take with it
+    let others = (0..table.columns).filter(|i| *i != index && column::is_vertical(*i, all));
+    for (i, name) in others.filter_map(|i| Some((i, *all.get(i)?))) {
+        let (other, names) = table.chosen(i, all);
+        for mut channel in series(file, other, &names, options).into_iter().flat_map(|p| p.channels)
+        {
+            (channel.name, channel.direction) = (Some(name.to_owned()), Direction::Vertical);
+            parsed.channels.push(channel);
+        }
     }
     Ok(parsed)
 }
@@ -77,7 +94,7 @@ pub(super) fn hold_numbers(text: &str) -> bool {
 }
 
 /// The numbers of a file, as they stand.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct NumberTable<'a> {
     header: Vec<(usize, &'a str)>,
     columns: usize,
@@ -210,39 +227,41 @@ impl<'a> NumberTable<'a> {
         })
     }
 
-    /// The table of the times, if there are any, and the column that is asked for, and the names of
-    /// both.
-    fn chosen(
-        self,
-        file: &str,
-        wanted: &str,
-        names: &[&'a str],
-    ) -> Result<(Self, Vec<&'a str>), RecordError> {
+    /// Index of the column that is asked for; not that of the times.
+    fn index(&self, file: &str, wanted: &str, names: &[&str]) -> Result<usize, RecordError> {
         let file = || file.to_owned();
         if let Some((line, found)) = self.short {
             return Err(RecordError::Ragged { file: file(), line, found, expected: self.columns });
         }
-        let timed =
-            self.times.run_upwards() || names.first().is_some_and(|name| header::is_time(name));
-        let times = usize::from(timed);
-        let Some(index) = column::find(wanted, self.columns, names).filter(|index| *index >= times)
-        else {
+        let times = usize::from(self.is_timed(names));
+        column::find(wanted, self.columns, names).filter(|index| *index >= times).ok_or_else(|| {
             let available = column::list(times, self.columns, names);
-            return Err(RecordError::NoComponent {
-                file: file(),
-                wanted: quote(wanted),
-                several: false,
-                available,
-            });
-        };
+            let (wanted, several) = (quote(wanted), false);
+            RecordError::NoComponent { file: file(), wanted, several, available }
+        })
+    }
+
+    /// Whether the first column holds times.
+    fn is_timed(&self, names: &[&str]) -> bool {
+        self.times.run_upwards() || names.first().is_some_and(|name| header::is_time(name))
+    }
+
+    /// The table of the times, if there are any, and of one other column, and the names of both.
+    fn chosen(&self, index: usize, names: &[&'a str]) -> (Self, Vec<&'a str>) {
+        let timed = self.is_timed(names);
         let row = |row: &[f64]| [0, index].map(|i| row.get(i).copied().unwrap_or(f64::NAN));
         let rows = self.values.chunks(self.columns).map(row);
         let values =
             if timed { rows.flatten().collect() } else { rows.map(|[_, value]| value).collect() };
         let kept = if timed { vec![0, index] } else { vec![index] };
-        let names: Vec<&str> = kept.iter().filter_map(|i| names.get(*i).copied()).collect();
+        let vertical = column::is_vertical(index, names);
+        let mut names: Vec<&str> = kept.iter().filter_map(|i| names.get(*i).copied()).collect();
         let column_name = names.last().copied();
-        Ok((Self { columns: kept.len(), values, column_name, ..self }, names))
+        if let Some(last) = names.last_mut().filter(|_| vertical) {
+            // V beside other directions is no velocity
+            *last = if last.eq_ignore_ascii_case("v") { "up" } else { last };
+        }
+        (Self { columns: kept.len(), values, column_name, ..self.clone() }, names)
     }
 
     /// Whether a first column of times is in ms by its name, and so was converted to s.
@@ -305,79 +324,5 @@ impl<'a> NumberTable<'a> {
         let peak = largest_magnitude(&self.values);
         peak > LARGEST_WHOLE
             || self.values.len() >= ONE_SIGN_ROWS && mean(&self.values).abs() > 0.5 * peak
-    }
-}
-
-/// The fields of a line: between semicolons if it has any, else between commas, else between
-/// blanks.
-fn fields(content: &str) -> Vec<&str> {
-    let clean = |field: &'_ str| field.trim().trim_matches('"').trim().len();
-    let separator = [';', ','].into_iter().find(|&c| content.contains(c));
-    let mut fields: Vec<&str> = match separator {
-        Some(separator) => {
-            content.split(separator).map(|field| field.trim().trim_matches('"').trim()).collect()
-        }
-        None => content.split_whitespace().map(|field| field.trim_matches('"')).collect(),
-    };
-    // a separator at the end of the line opens no column
-    if fields.len() > 1 && fields.last().is_some_and(|field| clean(field) == 0) {
-        fields.pop();
-    }
-    fields
-}
-
-/// Several tokens (between semicolons or blanks), all of them like `0,01`.
-fn has_decimal_commas(content: &str) -> bool {
-    let mut tokens =
-        content.split(|c: char| c == ';' || c.is_whitespace()).filter(|token| !token.is_empty());
-    let decimal =
-        |token: &str| token.matches(',').count() == 1 && number(&token.replace(',', ".")).is_some();
-    let plain = |token: &str| number(token).is_some();
-    let mut commas = 0;
-    tokens.all(|token| {
-        commas += usize::from(decimal(token));
-        decimal(token) && !token.starts_with(',') && !token.ends_with(',') || plain(token)
-    }) && commas > 0
-}
-
-/// A line right above the data that begins with a number and has as many fields is data gone wrong,
-/// not a header.
-fn damaged_first_line(
-    file: &str,
-    above: Option<&(usize, &str)>,
-    columns: usize,
-) -> Result<(), RecordError> {
-    let Some((line, content)) = above.filter(|(_, content)| !is_comment(content)) else {
-        return Ok(());
-    };
-    let fields = fields(content);
-    match fields.iter().find(|field| number(field).is_none()) {
-        Some(bad) if fields.len() == columns && number(fields[0]).is_some() => {
-            Err(RecordError::NotANumber { file: file.to_owned(), line: *line, text: quote(bad) })
-        }
-        _ => Ok(()),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn separators_may_be_mixed_with_blanks_and_trail() {
-        assert_eq!(fields("0.01, 0.5"), ["0.01", "0.5"]);
-        assert_eq!(fields("0.01;0.5;"), ["0.01", "0.5"]);
-        assert_eq!(fields("0.01\t 0.5"), ["0.01", "0.5"]);
-        assert_eq!(fields("\"0.01\",\"0.5\""), ["0.01", "0.5"]);
-        assert_eq!(fields("0.01,,0.5"), ["0.01", "", "0.5"]);
-    }
-
-    #[test]
-    fn decimal_commas_are_seen() {
-        assert!(has_decimal_commas("0,01;0,002"));
-        assert!(has_decimal_commas("0,01 -0,002e-3"));
-        assert!(has_decimal_commas("0;0,002"));
-        assert!(!has_decimal_commas("0.01, 0.002"));
-        assert!(!has_decimal_commas("time, acc"));
     }
 }

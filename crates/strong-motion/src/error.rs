@@ -42,6 +42,11 @@ pub enum RecordError {
     )]
     TooManyColumns { file: String, line: usize, found: usize, columns: String },
     #[error(
+        "{file}, line {line}: {found} columns, of which none or several are of a vertical motion \
+         ({columns}); call it UP, UD, Z, V or vertical in the header"
+    )]
+    NoVerticalColumn { file: String, line: usize, found: usize, columns: String },
+    #[error(
         "{file}: this is a case file, not a ground motion; run it as `tune run {file}`, or name a \
          record here"
     )]

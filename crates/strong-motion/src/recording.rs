@@ -157,6 +157,11 @@ impl Recording {
         &self.components[self.taken]
     }
 
+    /// Whether it is a column of a table that was chosen.
+    pub(super) fn is_chosen(&self) -> bool {
+        self.chosen
+    }
+
     /// The record that a run takes.
     pub fn into_record(mut self) -> Record {
         let record = self.components.swap_remove(self.taken).record;

@@ -9,7 +9,7 @@ use crate::largest_magnitude;
 const JITTER: f64 = 1e-3;
 
 /// Times as printed, with the lines they stand on.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Times {
     times: Vec<f64>,
     lines: Vec<usize>,

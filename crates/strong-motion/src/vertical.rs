@@ -13,6 +13,9 @@ use super::text::quote;
 use super::{Component, Direction, ReadOptions, Record, RecordError, Recording, Source};
 use crate::{GRAVITY, largest_magnitude};
 
+/// What finds the only vertical component of a file.
+const UP: &str = "up";
+
 /// Where to take the vertical component from: `auto`, or a file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(from = "PathBuf", into = "PathBuf")]
@@ -112,9 +115,21 @@ impl Vertical {
     /// The file is no record, or has no vertical component, or several.
     pub fn read(path: &Path, options: &ReadOptions) -> Result<Record, RecordError> {
         let options = ReadOptions { vertical: None, ..options.clone() };
-        let mut recording = Recording::read(path, &options)?;
+        let mut recording = match Recording::read(path, &options) {
+            // of a table the column that is called so
+            Err(RecordError::TooManyColumns { file, line, found, columns }) => {
+                let up = ReadOptions { component: Some(UP.into()), ..options.clone() };
+                Recording::read(path, &up).map_err(|error| match error {
+                    RecordError::NoComponent { .. } => {
+                        RecordError::NoVerticalColumn { file, line, found, columns }
+                    }
+                    other => other,
+                })?
+            }
+            other => other?,
+        };
         let which = match &recording.components[..] {
-            _ if options.component.is_some() => recording.taken,
+            _ if options.component.is_some() || recording.is_chosen() => recording.taken,
             [only] if matches!(only.direction, Direction::Vertical | Direction::Unknown) => 0,
             _ => recording.only_vertical()?,
         };
@@ -177,7 +192,7 @@ impl Recording {
     fn named(component: Component) -> Record {
         let mut record = Vertical::of(component);
         if let Source::File { component: name @ None, .. } = &mut record.source {
-            *name = Some("up".into());
+            *name = Some(UP.into());
         }
         record
     }
@@ -247,6 +262,7 @@ impl fmt::Display for Vertical {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Units;
 
     #[test]
     fn where_a_vertical_motion_comes_from_is_named_as_users_do() {
@@ -258,5 +274,63 @@ mod tests {
             assert_eq!(text.parse(), Ok(from.clone()));
             assert_eq!(PathBuf::from(from), PathBuf::from(text));
         }
+    }
+
+    /// The third column as it stands there, in m/s2.
+    #[test]
+    fn the_vertical_column_of_a_table_is_found_by_its_name() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("rec.csv");
+        let write = |head: &str| {
+            std::fs::write(
+                &path,
+                format!("{head}\n0.00,1.0,0.5\n0.01,-2.0,0.25\n0.02,1.5,-0.75\n"),
+            )
+            .unwrap();
+        };
+        let read = |component: Option<&str>, vertical: Option<VerticalFrom>| {
+            let component = component.map(str::to_owned);
+            let units = Some(Units::MetrePerSecond2);
+            Record::read(&path, &ReadOptions { component, vertical, units, ..Default::default() })
+        };
+        for name in ["UP", "ud", "Z", "V", "vertical", "Up [m/s2]"] {
+            write(&format!("time,EW,{name}"));
+            let auto = read(Some("EW"), Some(VerticalFrom::Auto)).unwrap();
+            assert_eq!(
+                (&auto.accel[..], auto.up()),
+                (&[1.0, -2.0, 1.5][..], &[0.5, 0.25, -0.75][..])
+            );
+            let by_number = read(Some("column 2"), Some(VerticalFrom::Auto)).unwrap();
+            assert_eq!(by_number.up(), auto.up(), "{name}");
+            let file = read(Some("EW"), Some(VerticalFrom::File(path.clone()))).unwrap();
+            assert_eq!(file.up(), auto.up(), "{name}");
+            // it is found again by its source, as parameters.json has it
+            let Source::File { component, units, .. } = &auto.vertical.as_ref().unwrap().source
+            else {
+                panic!("no file")
+            };
+            let options = ReadOptions {
+                component: component.clone(),
+                units: Some(*units),
+                ..Default::default()
+            };
+            assert_eq!(Vertical::read(&path, &options).unwrap().accel, auto.up());
+            // and told where it is left out: 0.75 m/s2
+            let Source::File { vertical_left_out_g, .. } = read(Some("EW"), None).unwrap().source
+            else {
+                panic!("no file")
+            };
+            assert!((vertical_left_out_g.unwrap() - 0.75 / 9.81).abs() < 1e-15);
+        }
+        write("time,a,V");
+        assert!(matches!(
+            read(Some("a"), Some(VerticalFrom::Auto)),
+            Err(RecordError::NoVertical { .. })
+        ));
+        write("time,EW,other");
+        let refused = read(Some("EW"), Some(VerticalFrom::File(path.clone()))).unwrap_err();
+        let told = "rec.csv, line 2: 3 columns, of which none or several are of a vertical motion \
+            (column 2 (EW), column 3 (other)); call it UP, UD, Z, V or vertical in the header";
+        assert!(refused.to_string().ends_with(told), "{refused}");
     }
 }
