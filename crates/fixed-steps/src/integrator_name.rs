@@ -11,7 +11,7 @@ pub enum IntegratorNameError {
     /// Unknown, or not with these numbers.
     #[error(
         "integrator {name:?}: give newmark:GAMMA:BETA, hht:ALPHA (0 to -1/2; \
-         stable to -1/3), generalized-alpha:RHO (0 to 1), trbdf2 or backward-euler"
+         -1/3 damps most), generalized-alpha:RHO (0 to 1), trbdf2 or backward-euler"
     )]
     Unknown {
         /// As given.

@@ -17,7 +17,7 @@ pub struct ProgramOptions {
     /// that gets an elastic structure through]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = seconds)]
     step: Option<f64>,
-    /// Its integrator: newmark:GAMMA:BETA, hht:ALPHA (0 to -1/2, stable to -1/3),
+    /// Its integrator: newmark:GAMMA:BETA, hht:ALPHA (0 to -1/2; -1/3 damps most),
     /// generalized-alpha:RHO, trbdf2 or backward-euler [default: the case's; hht:-0.333 in sap2000
     /// and etabs, backward-euler in opensees-even]
     #[arg(long, value_name = "NAME")]
