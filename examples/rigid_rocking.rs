@@ -50,7 +50,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .collect();
     match overturning.first() {
         Some(least) => println!(
-            "least scale that overturns it: {least} ({} of {})",
+            "least scale that overturns it, in steps of 0.01: {least} ({} of {}; narrower bands \
+             may be missed)",
             overturning.len(),
             scales.len()
         ),
