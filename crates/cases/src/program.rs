@@ -182,6 +182,10 @@ mod tests {
             ("integrator = 'hht:0.333'", "give hht:-0.333"),
             ("step_s = 0.0", "program.step_s is 0.0; give a time step between"),
             ("integrator = 'wilson'", "program.integrator is \"wilson\"; give newmark:GAMMA:BETA"),
+            (
+                "integrator = 'hht:-0.51'",
+                "program.integrator is \"hht:-0.51\"; give one from 0 to -0.5, beyond which",
+            ),
             ("integrator = 'hht:0.5'", "program.integrator is \"hht:0.5\"; "),
             (
                 "for = 'sap2000'\nintegrator = 'trbdf2'",

@@ -57,8 +57,8 @@ pub enum Integrator {
 pub enum IntegratorError {
     /// HHT outside the range in which it is stable.
     #[error(
-        "HHT's alpha is {alpha}; give one from 0 to -0.5: -1/3 damps most (OpenSees' own number is \
-         1 + alpha)"
+        "HHT's alpha is {alpha}: give one from 0 to -0.5, beyond which stiff modes grow; -1/3 \
+         damps most (OpenSees' own number is 1 + alpha)"
     )]
     Alpha {
         /// As given.
