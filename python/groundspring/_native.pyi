@@ -34,6 +34,9 @@ class Record:
     name   what it is called
     units  of accel: "m/s2", "g" (9.81 m/s2), "cm/s2" or "mm/s2"
 
+    A time step of 0.05 s and more, and peaks that no earthquake has (above 5 g or 3 m/s, below
+    1e-4 g), are a GroundspringWarning.
+
     ValueError: dt not between 1e-6 and 1 s, no sample, a sample that is not finite, a peak above 50 g; an array of two
     dimensions, masked, complex, or with units of its own.
     """
@@ -322,7 +325,8 @@ def rigid_rocking(
     vertical  ground acceleration at the same times, positive upwards, if not that of the record; the history ends where
               the ground would have to pull (outcome "leaves_ground")
 
-    ValueError: a vertical record of other times; a scale or restitution out of range.
+    ValueError: a vertical record of other times; a scale (none of zero) or restitution out of
+    range.
     """
 
 def rigid_rocking_many(

@@ -2,6 +2,7 @@
 
 use std::{borrow::Cow, path::PathBuf};
 
+use cases::NO_MOTION;
 use pyo3::prelude::*;
 use strong_motion as core;
 use strong_motion::{Recording, Units};
@@ -29,6 +30,15 @@ pub fn checked_scales(record: &core::Record, scales: &[f64]) -> PyResult<()> {
     }
 }
 
+/// A record at a scale; none at a scale of zero, as the program has it.
+pub fn at_scale(record: Cow<'_, core::Record>, scale: f64) -> PyResult<Cow<'_, core::Record>> {
+    match scale {
+        1.0 => Ok(record),
+        0.0 => Err(value_error(format!("scale is 0; {NO_MOTION}"))),
+        _ => record.scaled(scale).map(Cow::Owned).map_err(value_error),
+    }
+}
+
 /// A ground motion: acceleration at even time steps, linear in between. Equal ones have equal
 /// names and numbers.
 ///
@@ -37,6 +47,9 @@ pub fn checked_scales(record: &core::Record, scales: &[f64]) -> PyResult<()> {
 ///        numbers
 /// name   what it is called
 /// units  of accel: "m/s2", "g" (9.81 m/s2), "cm/s2" or "mm/s2"
+///
+/// A time step of 0.05 s and more, and peaks that no earthquake has (above 5 g or 3 m/s, below
+/// 1e-4 g), are a GroundspringWarning.
 ///
 /// ValueError: dt not between 1e-6 and 1 s, no sample, a sample that is not finite, a peak
 /// above 50 g; an array of two dimensions, masked, complex, or with units of its own.
@@ -56,14 +69,22 @@ impl Record {
 impl Record {
     #[new]
     #[pyo3(signature = (dt, accel, name = "record", *, units = "m/s2"))]
-    fn new(dt: f64, accel: &Bound<'_, PyAny>, name: &str, units: &str) -> PyResult<Self> {
+    fn new(
+        py: Python<'_>,
+        dt: f64,
+        accel: &Bound<'_, PyAny>,
+        name: &str,
+        units: &str,
+    ) -> PyResult<Self> {
         let factor = units.parse::<Units>().map_err(value_error)?.metres_per_second2();
         let mut accel =
             numbers::row(accel, "accel", "accelerations in m/s2, or in the units that are named")?;
         if factor != 1.0 {
             accel.iter_mut().for_each(|a| *a *= factor);
         }
-        core::Record::new(name, dt, accel).map(Self).map_err(value_error)
+        let record = core::Record::new(name, dt, accel).map_err(value_error)?;
+        record.notices(name, "").iter().try_for_each(|notice| warn(py, notice))?;
+        Ok(Self(record))
     }
 
     /// What it is called.

@@ -1,7 +1,6 @@
 //! Housner's solution: one history, or many on all cores.
 
 use std::{
-    borrow::Cow,
     f64::consts::FRAC_PI_2,
     sync::{Arc, OnceLock},
 };
@@ -18,8 +17,7 @@ use crate::{
     Array,
     filed::Filed,
     numbers::{self, ratio},
-    record::Record,
-    said::value_error,
+    record::{Record, at_scale},
     structure::{Structure, hashed},
     times, view,
     work::interruptible,
@@ -300,7 +298,8 @@ impl Histories {
 ///           record; the history ends where the
 ///           ground would have to pull (outcome "leaves_ground")
 ///
-/// ValueError: a vertical record of other times; a scale or restitution out of range.
+/// ValueError: a vertical record of other times; a scale (none of zero) or restitution out of
+/// range.
 #[pyfunction]
 #[pyo3(signature = (structure, record, vertical = None, scale = 1.0, restitution = None))]
 pub fn rigid_rocking(
@@ -313,9 +312,7 @@ pub fn rigid_rocking(
 ) -> PyResult<History> {
     let e = ratio(restitution)?.unwrap_or(structure.e);
     // as the program scales: the samples are, so that both agree to the last bit
-    let record = record.beside(vertical)?;
-    let record =
-        if scale == 1.0 { record } else { Cow::Owned(record.scaled(scale).map_err(value_error)?) };
+    let record = at_scale(record.beside(vertical)?, scale)?;
     let body = structure.body();
     let options = RockingOptions::on(&record, e);
     let rocking = py.detach(|| housner::solve(&body, record.dt, &record.accel, &options));

@@ -1,6 +1,6 @@
 //! Both models on given springs.
 
-use std::{borrow::Cow, sync::Arc};
+use std::sync::Arc;
 
 use dynamics::fem::{self, QUANTITIES};
 use numpy::PyArray1;
@@ -21,9 +21,9 @@ use validation::verdict::Verdict;
 use crate::{
     Array,
     numbers::ratio,
-    record::Record,
+    record::{Record, at_scale},
     rocking::History,
-    said::{one_line, plain, value_error, warn_of},
+    said::{one_line, plain, warn_of},
     springs::Springs,
     structure::Structure,
     times, view,
@@ -302,9 +302,7 @@ pub fn simulate(
     vertical: Option<&Record>,
 ) -> PyResult<Simulation> {
     let e = ratio(restitution)?.unwrap_or(structure.e);
-    let record = record.beside(vertical)?;
-    let record =
-        if scale == 1.0 { record } else { Cow::Owned(record.scaled(scale).map_err(value_error)?) };
+    let record = at_scale(record.beside(vertical)?, scale)?;
     let inputs =
         (structure, springs, Record(record.clone().into_owned()), e, friction).into_pyobject(py)?;
     let simulation = interruptible(py, |_| {

@@ -290,7 +290,7 @@ impl Component {
     pub fn notices(&self, file: &str) -> Vec<Notice> {
         let mut notices = Vec::new();
         let (file, component) = (file.to_owned(), self.label());
-        let (pga, pga_g) = (self.record.pga(), self.record.pga_g());
+        let pga = self.record.pga();
         let still = super::parsed::mean(&self.record.accel);
         // one sample is its own mean
         if self.record.len() > 1 && still.abs() > Notice::OFFSET_SHARE * pga {
@@ -301,21 +301,7 @@ impl Component {
                 share,
             });
         }
-        let dt = self.record.dt;
-        if dt >= Notice::COARSE_S * (1.0 - 1e-9) {
-            let (file, component) = (file.clone(), component.clone());
-            notices.push(Notice::Coarse { file, component, dt });
-        }
-        let pgv = self.record.measures().pgv.value.abs();
-        if pgv > Notice::FAST_M_PER_S {
-            let (file, component) = (file.clone(), component.clone());
-            notices.push(Notice::Fast { file, component, pgv });
-        }
-        if pga_g > Notice::STRONG_G {
-            notices.push(Notice::Strong { file, component, pga_g });
-        } else if pga_g > 0.0 && pga_g < Notice::WEAK_G {
-            notices.push(Notice::Weak { file, component, pga_g });
-        }
+        notices.extend(self.record.notices(&file, &component));
         notices
     }
 }
