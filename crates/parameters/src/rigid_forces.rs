@@ -2,7 +2,7 @@
 //! the same on springs.
 //!
 //! ```text
-//!   F, N            horizontal and vertical force of the ground on the body (`regime`)
+//!   F, N            horizontal and vertical force of the ground on the body (`regime`), at each corner with its dashpot's
 //!   block           column shear F, axial force -N, moment about the middle of the base (N_left - N_right) b
 //!   A-frame         of a leg, D from the mass to its foot:  axial (H, N).D/|D|,  moment at the apex H D_z - N D_x,
 //!                   shear moment/|D|;  standing, both feet take F/2:  moment W b/2
@@ -24,7 +24,7 @@ use self::{
 use crate::answers::{MemberHistory, ModelComparison};
 use dynamics::compare::Match;
 use dynamics::fem::{Demands, History, between_landings};
-use frames::design_forces::HeldForce;
+use frames::design_forces::{ForcesTogether, HeldForce};
 use results::{DesignForce, DesignForces};
 use rocking::{
     housner::Rocking,
@@ -72,7 +72,7 @@ pub fn design_forces(
             let force = |k: usize| {
                 let change =
                     relative(own[k].value, other[k].value, least).filter(|_| ends == [None; 2]);
-                DesignForce::measured(own[k].value, own[k].time, change)
+                with_together((own[k], change), (kind, body), dt, both, k)
             };
             (force(0), [1, 2, 3].map(force))
         }
@@ -112,12 +112,45 @@ pub fn design_forces(
         }
     }
     let [shear, moment, axial] = rows.map(Some);
-    let of_members = member_forces(both, softer, (dt, least));
+    let of_members = member_forces(kind, both, softer, (dt, least));
     let all = DesignForces { column_shear_n: shear, axial_n: axial, ..of_members };
     match kind {
         Kind::Block => DesignForces { column_base_moment_nm: moment, ..all },
         Kind::AFrame => DesignForces { apex_moment_nm: moment, sole_shear_n: Some(sole), ..all },
     }
+}
+
+/// Force k, as [`DesignForce::measured`]; if it holds, with what acts together with it.
+fn with_together(
+    (peak, change): (TimedPeak, Option<f64>),
+    of: (Kind, &Body<f64>),
+    dt: f64,
+    both: &ModelComparison,
+    k: usize,
+) -> DesignForce {
+    let found = DesignForce::measured(peak.value, peak.time, change);
+    let together = together_at(of, dt, both, (k, found.time_s)).filter(|_| found.holds);
+    DesignForce { together, ..found }
+}
+
+/// What acts together with force k, at a time (s) at which the history that answers presses with
+/// one foot alone, and springs add nothing.
+fn together_at(
+    (kind, body): (Kind, &Body<f64>),
+    dt: f64,
+    both: &ModelComparison,
+    (k, time): (usize, f64),
+) -> Option<ForcesTogether> {
+    let (history, demands) = match &both.with {
+        Some(with) => (&with.history, &with.demands),
+        None => (&both.fem, &both.demands),
+    };
+    let i = (time / dt).round() as usize;
+    let alone = demands.feet.get(i)?.iter().any(|[_, press]| *press <= 0.0);
+    let theta = *history.motion.theta.get(i)?;
+    let kept = all_between(body, dt, history, demands.feet.len());
+    (alone && kept.binary_search(&i).is_ok())
+        .then(|| GroundRow::new(kind, body, theta, demands.corners(i)).together(kind, k))
 }
 
 /// A share of the weight below which a force is rounding.
@@ -180,9 +213,10 @@ fn on_springs(
     let mut peaks = [TimedPeak::default(); 4];
     for &i in kept {
         let row = &demands.at[i];
-        let [[left_h, left], [right_h, right]] = demands.feet[i];
+        let stands = demands.feet[i].iter().all(|foot| foot[1] > 0.0);
+        let [[left_h, left], [right_h, right]] = demands.corners(i);
         // pressing with both feet it does not turn, and what its springs swing by is not its own
-        let moment = match left.min(right) > 0.0 {
+        let moment = match stands {
             true => (left_h + right_h) * body.height,
             false => (left - right) * body.half_width,
         };
@@ -204,9 +238,12 @@ fn on_springs(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::answers::both;
+    use crate::answers::{both, with_members};
     use dynamics::spring::{Design, Springs};
-    use rocking::{members::Members, structure::Structure};
+    use rocking::{
+        members::{Damper, Members},
+        structure::Structure,
+    };
 
     fn forces(structure: &Structure, hz: f64, accel: Vec<f64>) -> DesignForces {
         let record = Record::new("made up", 0.01, accel).unwrap();
@@ -276,5 +313,63 @@ mod tests {
         let shear = all.column_shear_n.unwrap();
         assert!(shear.holds && shear.value.unwrap().abs() < 1.5 * 1000.0 * 4.0, "{shear:?}");
         assert!(all.axial_n.unwrap().value.unwrap() < 0.0 && all.apex_moment_nm.is_none());
+    }
+
+    /// A frame's leg in the air hangs on its dashpot: it bears the dashpot's pull d along its axis,
+    /// d h/R of a leg that hardly leans, and at the apex d b. A block's dashpot pulls its corner
+    /// down, which its base bears beside the foot that presses: (N + d) b about the middle.
+    #[test]
+    fn a_dashpot_pulls_on_the_leg_or_the_base_that_it_holds() {
+        let with = |structure: &Structure, c: f64| {
+            let record = Record::el_centro();
+            let design = Design::from_kc(0.3, 0.1, 0.75, 640.0);
+            let springs = Springs { vertical: design, horizontal: design };
+            let springs = springs.chains(structure.mass_kg);
+            let members = Members { damper: Some(Damper { c }), ..Members::default() };
+            let (body, e) = (structure.body(), structure.body::<f64>().restitution());
+            let both = both(&body, e, &springs, &members, &record);
+            let of = (&both.rocking, &both.housner);
+            let softer = with_members(&body, e, &springs, &members, &record, of);
+            let all = design_forces(structure.kind, &body, &record, &both, Some(&softer), None);
+            (all, both.with.unwrap())
+        };
+        let frame = Structure::a_frame(35.0, 7.0, 500e3).unwrap();
+        let (all, frame_with) = with(&frame, 2e6);
+        let pull = |i: usize| -> f64 {
+            let (row, feet) = (&frame_with.demands.at[i], &frame_with.demands.feet[i]);
+            let [left, right] = feet.map(|foot| foot[1] > 0.0);
+            let pulls = [(left, right, row[8]), (right, left, row[9])];
+            let hangs = pulls.into_iter().filter(|(presses, other, _)| !presses && *other);
+            hangs.map(|(_, _, d)| -d).fold(0.0, f64::max)
+        };
+        let pull = (0..frame_with.demands.at.len()).map(pull).fold(0.0, f64::max);
+        let tension = all.axial_tension_n.unwrap().value.unwrap();
+        let along = 35.0 / 35.0_f64.hypot(3.5);
+        // a lean of 0.01 turns the leg by a thousandth
+        assert!((tension / (pull * along) - 1.0).abs() < 2e-3, "{tension} {pull}");
+        assert!(pull > 3e5 && all.damper_n.unwrap().value.unwrap().abs() > pull);
+        let block = Structure::block(18.0, 2.2, 110e3).unwrap();
+        let (all, with) = with(&block, 3e5);
+        let found = all.column_base_moment_nm.unwrap().value.unwrap().abs();
+        let (body, demands) = (block.body::<f64>(), &with.demands);
+        let kept = all_between(&body, 0.01, &with.history, demands.feet.len());
+        let by_hand = |&i: &usize| {
+            let [left, right] = demands.feet[i].map(|foot| foot[1]);
+            let [dashpot_left, dashpot_right] = [demands.at[i][8], demands.at[i][9]];
+            let (n, d) = if left > 0.0 { (left, -dashpot_right) } else { (right, -dashpot_left) };
+            if left.min(right) > 0.0 { 0.0 } else { (n + d) * body.half_width }
+        };
+        let due = kept.iter().map(by_hand).fold(0.0, f64::max);
+        // without the dashpot it would be less
+        let bare = |&i: &usize| demands.feet[i].map(|foot| foot[1]).into_iter().fold(0.0, f64::max);
+        let alone = kept.iter().map(bare).fold(0.0, f64::max) * body.half_width;
+        assert!((found / due - 1.0).abs() < 1e-6 && due > 1.02 * alone, "{found} {due} {alone}");
+        // at one corner N presses and at the other d pulls: N b + d b beside N - d
+        let moment = all.column_base_moment_nm.unwrap();
+        let i = (moment.time_s / 0.01).round() as usize;
+        let [left, right] = demands.feet[i].map(|foot| foot[1]);
+        let axial = left + right + demands.at[i][8] + demands.at[i][9];
+        let with = moment.together.unwrap();
+        assert!((with.axial_n / -axial - 1.0).abs() < 1e-9, "{with:?} {axial}");
     }
 }

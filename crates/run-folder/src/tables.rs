@@ -83,7 +83,9 @@ const OF_BLOCK: [&str; 6] = [
 const MEMBERS: usize = 7;
 
 /// `members.csv` or `members_envelopes.csv` of a rigid body: of an A-frame's legs, of a block's
-/// base; axial forces are positive in tension. Samples are `dt` (s) apart.
+/// section above its base, where dashpots hold its corners and a tendon from mass to ground passes
+/// by; the base shear is all that the ground gives, the tendon's included. Axial forces are
+/// positive in tension. Samples are `dt` (s) apart.
 pub fn members_csv(
     (kind, body): (Kind, &Body<f64>),
     dt: f64,
@@ -99,7 +101,7 @@ pub fn members_csv(
         if kind == Kind::Block {
             let [sum, difference] = match at_samples {
                 true => {
-                    let [[_, left], [_, right]] = demands.feet[i];
+                    let [[_, left], [_, right]] = demands.corners(i);
                     [left + right, left - right]
                 }
                 false => [0, 1].map(|k| history.forces.both[k][i]),
@@ -150,7 +152,8 @@ mod tests {
             text.lines().nth(1).unwrap().split(',').map(|x| x.parse().unwrap()).collect()
         };
         assert!(text.starts_with("t,base_shear_n,base_axial_n,base_moment_nm,tendon_n"));
-        assert_eq!(row(&text), [0.0, 3.0, -60.0, 10.0, 3.0, 3.0, 3.0]);
+        // 50 N and 10 N of the ground, 3 N of each dashpot
+        assert_eq!(row(&text), [0.0, 3.0, -66.0, 10.0, 3.0, 3.0, 3.0]);
         let worst = members_csv(of, 0.01, (&both.fem, &demands), Instants::Envelopes);
         let worst = row(&worst);
         assert_eq!((worst[1], worst[4]), (-7.0, -7.0));

@@ -1,8 +1,8 @@
 //! What the designer needs of a history: forces in the legs, tendon and dampers, and base shear.
 //!
 //! ```text
-//!   leg      F = (H, N) the ground's force on the foot, D from the mass to the foot:
-//!            axial F D/|D| (tension positive)   moment at the mass H D_z - N D_x    shear moment/|D|
+//!   leg      F = (H, N + d) of the ground and the dashpot d on the foot, D from the mass to the foot:
+//!            axial F D/|D| (tension positive)   moment at the mass H D_z - (N + d) D_x    shear moment/|D|
 //!   base shear    sum H plus the tendon's horizontal force at its anchor: what the ground gives the body, m (X'' + ug'')
 //! ```
 //!
@@ -32,6 +32,9 @@ pub const QUANTITIES: [&str; 10] = [
     "damper_right_n",
 ];
 
+/// Where the dampers stand in them.
+pub const DAMPERS: [usize; 2] = [8, 9];
+
 /// One value of each of `QUANTITIES`.
 pub(crate) type DemandRow = [f64; QUANTITIES.len()];
 
@@ -53,6 +56,12 @@ pub struct Demands {
 }
 
 impl Demands {
+    /// Forces on both corners of the body at a sample: of the ground and of the dashpot there (N).
+    pub fn corners(&self, sample: usize) -> [[f64; 2]; 2] {
+        let (feet, at) = (self.feet[sample], &self.at[sample]);
+        [0, 1].map(|i| [feet[i][0], feet[i][1] + at[DAMPERS[i]]])
+    }
+
     /// Find what is largest between these landings, over the first `samples` of the history.
     pub fn separate(&mut self, body: &Body<f64>, dt: f64, landings: &[Landing], samples: usize) {
         self.between = Default::default();
@@ -88,24 +97,29 @@ pub(super) fn demand(view: &View) -> DemandRow {
     demand_of(view, &view.model.contact(&view.state.q, view.feet))
 }
 
+/// Each dashpot's force on its corner of the body, upwards (N).
+pub(super) fn damper_forces(view: &View) -> [f64; 2] {
+    let (q, v) = (&view.state.q, &view.state.v);
+    let dampers = view.model.elements_under(view.feet).dampers;
+    dampers.map_or([0.0; 2], |all| all.forces(q, v).map(|(force, _)| force))
+}
+
 /// The same, of feet whose forces are known.
 fn demand_of(view: &View, feet: &[FootForce; 2]) -> DemandRow {
-    let (model, q, v) = (view.model, &view.state.q, &view.state.v);
-    let [left, right] = feet.each_ref().map(|f| {
-        let (h, n) = (f.horizontal, f.vertical);
+    let (model, q) = (view.model, &view.state.q);
+    let dampers = damper_forces(view);
+    let [left, right] = [0, 1].map(|i| {
+        let f = &feet[i];
+        let (h, n) = (f.horizontal, f.vertical + dampers[i]);
         // D = (-dp_z/dtheta, dp_x/dtheta)
         let length = f.px_th.hypot(f.pz_th);
         let moment = h * f.px_th + n * f.pz_th;
         [(n * f.px_th - h * f.pz_th) / length, moment / length, moment]
     });
-    let (mut shear, mut tension, mut dampers) =
-        (feet[0].horizontal + feet[1].horizontal, 0.0, [0.0; 2]);
+    let (mut shear, mut tension) = (feet[0].horizontal + feet[1].horizontal, 0.0);
     if let Some(tendon) = &model.elements.tendon {
         shear += tendon.force_on_mass(q)[0];
         tension = tendon.tension(q);
-    }
-    if let Some(all) = &model.elements_under(view.feet).dampers {
-        dampers = all.forces(q, v).map(|(force, _)| force);
     }
     [
         shear, left[0], left[1], left[2], right[0], right[1], right[2], tension, dampers[0],

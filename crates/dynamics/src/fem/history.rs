@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use super::{
     Finish,
     control::{HistoryOutcome, Work},
+    demands::damper_forces,
     energy::Energy,
     landings::{ContactEvent, Events, Landing, MOMENT, SLIGHT},
     model::{TH, X, Z},
@@ -20,7 +21,8 @@ pub struct Forces {
     pub vertical: [Vec<f64>; 2],
     /// Of the ground on the foot, positive to the right.
     pub horizontal: [Vec<f64>; 2],
-    /// Vertical forces of both feet at one instant: left plus right, left minus right.
+    /// Vertical forces on both corners of the body at one instant, those of dashpots there
+    /// included: left plus right, left minus right.
     pub both: [Vec<f64>; 2],
 }
 
@@ -175,7 +177,8 @@ impl Observer for Recorder {
 
     fn step(&mut self, view: &View) {
         let feet = view.model.contact(&view.state.q, view.feet);
-        let [left, right] = [&feet[0], &feet[1]].map(|f| f.vertical);
+        let dampers = damper_forces(view);
+        let [left, right] = [0, 1].map(|i| feet[i].vertical + dampers[i]);
         let forces = feet
             .iter()
             .flat_map(|f| [f.vertical, f.horizontal])

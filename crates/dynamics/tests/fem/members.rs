@@ -6,7 +6,7 @@ use dynamics::{
 };
 use rocking::{
     members::{Damper, Members, Tendon},
-    motion::largest_magnitude,
+    motion::{Motion, largest_magnitude},
     scalar::GRAVITY,
     structure::Structure,
 };
@@ -222,4 +222,82 @@ fn dampers_do_not_let_a_foot_chatter_on_soft_springs() {
             assert_sound(&history, record.accel.len());
         }
     }
+}
+
+/// Dashpots hold the corners of the body, a tendon its mass: by Newton's laws, from the motion
+/// alone,
+///
+/// ```text
+///   upwards        m (z'' + g + a_v) = sum of both corners - T (h + z)/l,    l = hypot(u, h + z)
+///   about the mass sum of the legs' moments = I_cg theta''
+///   in the air     the leg bears its dashpot alone: d = -c w,  w = -+2 b cos theta theta', the other corner at rest:
+///                  tension -d cos,  moment |d| times the foot's distance from the mass, horizontally
+/// ```
+#[test]
+fn what_the_legs_and_corners_bear_balances_the_motion() {
+    let frame = Structure {
+        rotational_inertia_kgm2: 2.5e6,
+        ..Structure::a_frame(35.0, 7.0, 500e3).unwrap()
+    };
+    balances(&frame, 2e6, Tendon { stiffness: 2e6, pretension: 3e5 });
+    let block = Structure::block(18.0, 2.2, 110e3).unwrap();
+    balances(&block, 3e5, Tendon { stiffness: 2e6, pretension: 1e5 });
+}
+
+fn balances(structure: &Structure, c: f64, tendon: Tendon) {
+    let horizontal = el_centro();
+    let up: Vec<f64> = (0..horizontal.accel.len()).map(|i| (0.05 * i as f64).sin()).collect();
+    let body = structure.body::<f64>();
+    let (dt, weight) = (horizontal.dt, body.mass * GRAVITY);
+    let members = Members { damper: Some(Damper { c }), tendon: Some(tendon), friction: None };
+    let analysis = Analysis {
+        vertical: &up,
+        ..Analysis::new(body, plastic(640.0, body.mass), dt, &horizontal.accel)
+    };
+    let (history, demands) = analysis.simulate_with(&members);
+    let Motion { u, v, theta } = &history.motion;
+    let (mut largest, mut seen) = (0.0_f64, 0);
+    for i in 2..u.len() - 2 {
+        let near = |time: f64| (-0.15..0.03).contains(&(time - i as f64 * dt));
+        let pressed = |i: usize, foot: usize| demands.feet[i][foot][1] > 0.0;
+        let alone =
+            |foot: usize| (i - 2..=i + 2).all(|i| pressed(i, foot) && !pressed(i, 1 - foot));
+        let Some(foot) = [0, 1].into_iter().find(|&foot| alone(foot)) else { continue };
+        if history.landings.iter().any(|landing| near(landing.time)) {
+            continue;
+        }
+        seen += 1;
+        let second = |x: &[f64]| (x[i + 1] - 2.0 * x[i] + x[i - 1]) / (dt * dt);
+        let rate = (theta[i + 1] - theta[i - 1]) / (2.0 * dt);
+        // the ground's acceleration is linear between samples: second differences are its means
+        let mean = |of: &dyn Fn(usize) -> f64| (of(i - 1) + 4.0 * of(i) + of(i + 1)) / 6.0;
+        let found = mean(&|i| {
+            let rise = body.height + v[i] + history.initial_z;
+            let [left, right] = demands.corners(i);
+            left[1] + right[1] - demands.at[i][7] * rise / u[i].hypot(rise)
+        });
+        let due = body.mass * (second(v) + GRAVITY + mean(&|i| up[i]));
+        assert!((found - due).abs() < 1e-3 * weight, "{i}: {found} {due}");
+        let found = mean(&|i| demands.at[i][3] + demands.at[i][6]);
+        let due = body.inertia * second(theta);
+        let apart = 1e-3 * (weight * body.half_width + body.inertia);
+        assert!((found - due).abs() < apart, "{i}: {found} {due}");
+        // the other leg hangs on its dashpot
+        let other = 1 - foot;
+        let side = if other == 0 { -1.0 } else { 1.0 };
+        let d = c * side * 2.0 * body.half_width * theta[i].cos() * rate;
+        let row = &demands.at[i][1 + 3 * other..][..3];
+        let (sin, cos) = theta[i].sin_cos();
+        let x = side * body.half_width * cos - body.height * sin;
+        let z = -body.height * cos - side * body.half_width * sin;
+        // differences over samples miss the rate by a sixth of what the ground's acceleration
+        // changes the turning by in one of them
+        let apart = c * 2.0 * body.half_width * 3e-4;
+        let arms = [z / body.radius(), -x / body.radius(), -x];
+        for (found, arm) in row.iter().zip(arms) {
+            assert!((found - d * arm).abs() < apart * arm.abs() + 1.0, "{i}: {row:?} {d} {arms:?}");
+        }
+        largest = largest.max(row[0]);
+    }
+    assert!(seen > 300 && largest > 0.02 * weight, "{seen} {largest}");
 }

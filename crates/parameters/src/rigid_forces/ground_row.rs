@@ -52,6 +52,28 @@ impl GroundRow {
         Self::new(kind, body, 0.0, feet)
     }
 
+    /// The same of a body that leans by theta, with what the dashpot of the corner in the air (0
+    /// left, 1 right) does, d (N, upwards): a frame's leg there bears it alone; a block's base
+    /// bears d b the more where it pulls down.
+    pub fn hung(
+        mut self,
+        kind: Kind,
+        body: &Body<f64>,
+        (corner, d): (usize, f64),
+        theta: f64,
+    ) -> Self {
+        let mut feet = [[0.0; 2]; 2];
+        feet[corner][1] = if kind == Kind::Block { d.min(0.0) } else { d };
+        let hanging = Self::new(kind, body, theta, feet).legs;
+        match kind {
+            Kind::AFrame => self.legs[corner] = hanging[corner],
+            Kind::Block => {
+                self.legs = [std::array::from_fn(|k| self.legs[0][k] + hanging[0][k]); 2];
+            }
+        }
+        self
+    }
+
     /// The leg where a force of a leg is the larger one: 0 shear, 1 moment, 2 axial force.
     fn leg(&self, force: usize) -> ForceRow {
         let [left, right] = self.legs;

@@ -1,30 +1,36 @@
-//! Forces of a rigid body's tendon and dampers: the largest on the springs of a run, and by how
-//! much they change on springs of a quarter of Omega_n.
+//! Forces of a rigid body's tendon and dampers, and the tension of a leg whose damper holds its
+//! foot down: the largest on the springs of a run, and by how much they change on springs of a
+//! quarter of Omega_n.
 //!
 //! Landings count: the body's motion stretches a tendon and moves a damper, not the springs. A
 //! force that does change with them is withheld, as every other one.
 
 use super::relative;
 use crate::answers::{MemberHistory, ModelComparison};
-use dynamics::fem::Demands;
+use dynamics::fem::{DAMPERS, Demands};
 use results::{DesignForce, DesignForces};
-use rocking::motion::{TimedPeak, samples_until};
+use rocking::{
+    motion::{TimedPeak, samples_until},
+    structure::Kind,
+};
 
 /// The tendon's column of a row of [`Demands`].
 const TENDON: usize = 7;
-/// The dampers' columns.
-const DAMPERS: [usize; 2] = [8, 9];
+/// The columns of the legs' axial forces.
+const AXIAL: [usize; 2] = [1, 4];
 
 /// Those of a run, in an otherwise empty set; samples are `dt` (s) apart. `softer`: on springs of a
 /// quarter of Omega_n; forces below `least` (N) are none.
 pub(super) fn member_forces(
+    kind: Kind,
     both: &ModelComparison,
     softer: Option<&MemberHistory>,
     (dt, least): (f64, f64),
 ) -> DesignForces {
     let (Some(own), Some(softer)) = (&both.with, softer) else { return DesignForces::default() };
     let ended = [own, softer].iter().any(|of| of.history.outcome.ends_early().is_some());
-    let largest = |of: &MemberHistory, columns: &[usize]| {
+    type ForceSeries = fn(&Demands, usize, usize) -> Vec<f64>;
+    let largest = |of: &MemberHistory, columns: &[usize], column_of: ForceSeries| {
         let samples = samples_until(of.matched.overturned_fem_s, dt);
         columns
             .iter()
@@ -32,15 +38,18 @@ pub(super) fn member_forces(
             .reduce(TimedPeak::larger)
             .unwrap_or_default()
     };
-    let force = |columns: &[usize]| {
-        let (found, other) = (largest(own, columns), largest(softer, columns));
+    let force = |columns: &[usize], of: ForceSeries| {
+        let (found, other) = (largest(own, columns, of), largest(softer, columns, of));
         let change = relative(found.value, other.value, least).filter(|_| !ended);
         let force = DesignForce::measured(found.value, found.time, change);
         (found.value.abs() > least).then_some(force)
     };
+    let damper = own.members.damper;
+    let legs = damper.filter(|_| kind == Kind::AFrame);
     DesignForces {
-        tendon_n: own.members.tendon.and_then(|_| force(&[TENDON])),
-        damper_n: own.members.damper.and_then(|_| force(&DAMPERS)),
+        tendon_n: own.members.tendon.and_then(|_| force(&[TENDON], column_of)),
+        damper_n: damper.and_then(|_| force(&DAMPERS, column_of)),
+        axial_tension_n: legs.and_then(|_| force(&AXIAL, tension_in_the_air)),
         ..DesignForces::default()
     }
 }
@@ -48,4 +57,13 @@ pub(super) fn member_forces(
 /// A force over the first samples: the largest magnitude since the sample before.
 fn column_of(demands: &Demands, column: usize, samples: usize) -> Vec<f64> {
     demands.rows.iter().take(samples).map(|row| row[column]).collect()
+}
+
+/// The tension of a leg at the first samples while its foot alone is in the air: it hangs on its
+/// damper then, and the springs do not enter.
+fn tension_in_the_air(demands: &Demands, column: usize, samples: usize) -> Vec<f64> {
+    let leg = usize::from(column == AXIAL[1]);
+    let hangs = |feet: &[[f64; 2]; 2]| feet[leg][1] <= 0.0 && feet[1 - leg][1] > 0.0;
+    let all = demands.at.iter().zip(&demands.feet).take(samples);
+    all.map(|(row, feet)| if hangs(feet) { row[column].max(0.0) } else { 0.0 }).collect()
 }

@@ -1,7 +1,7 @@
 //! Forces of a body on springs near its landings, without what the springs add.
 
 use super::ground_row::{GroundRow, standing_feet};
-use dynamics::fem::{Demands, History};
+use dynamics::fem::{DAMPERS, Demands, History};
 use rocking::{
     regime,
     scalar::GRAVITY,
@@ -11,8 +11,9 @@ use strong_motion::Record;
 
 /// Forces near landings, at the other samples than `kept`, of a body that presses on the ground: m
 /// (a_g, g + a_v) where both feet press and it can stand so, those of equation (1) where one does.
-/// With members, which equation (1) has not, what m (g + a_v) of a vertical motion presses with. A
-/// landing adds its impulse, which is not a design force.
+/// With members, which equation (1) has not, what m (g + a_v) of a vertical motion presses with,
+/// and what the dashpot of the corner in the air does, which moves as the body does. A landing adds
+/// its impulse, which is not a design force.
 pub(super) fn near_landings(
     (kind, body): (Kind, &Body<f64>),
     record: &Record,
@@ -31,7 +32,13 @@ pub(super) fn near_landings(
         let (side, weight) = (if right > left { 1.0 } else { -1.0 }, body.mass * GRAVITY);
         if has_members {
             let shaken = !record.up().is_empty() && ground.1 > 0.0;
-            return shaken.then(|| (i, GroundRow::pressing(kind, body, side, weight * ground.1)));
+            let pressed = if shaken { weight * ground.1 } else { 0.0 };
+            let lifted = usize::from(side < 0.0);
+            let of_damper = demands.at[i][DAMPERS[lifted]];
+            let damper = Some(of_damper).filter(|force| *force != 0.0 && left.min(right) <= 0.0);
+            let row = GroundRow::pressing(kind, body, side, pressed);
+            return (shaken || damper.is_some())
+                .then(|| (i, row.hung(kind, body, (lifted, damper.unwrap_or(0.0)), theta[i])));
         }
         if left.min(right) > 0.0 && regime::stands(body, ground) {
             let feet = standing_feet(body, weight, ground);
