@@ -11,10 +11,17 @@
 //! and at rest F = m u_g, N = m (g + a_v); a_v is the vertical ground acceleration, if there is
 //! any. Without sliding |F|/N is below the friction coefficient; N <= 0 is free flight.
 //!
-//! A landing is an impulse (P_x, P_y) at the new foot that stops it. Housner's, which leaves the
-//! old foot (the pivot until now) without impulse, asks for P_x/P_y = h (1 - e)/(b (1 + e)) = m h
-//! b/(I_cg + m h^2). The pivot must then rise. An impulse with friction mu at the new foot lifts
-//! the pivot if
+//! A landing turns the centre of mass, h above the ground and b beside either foot, from the rate w
+//! about the old foot (the pivot until now) to e w about the new one. Whatever feet give the
+//! impulses, momentum asks of the ground
+//!
+//! ```text
+//! P_x = m h w - m h e w,   P_y = m b w + m b e w:   P_x/P_y = h (1 - e)/(b (1 + e))
+//! ```
+//!
+//! I_cg does not enter but by equation (2), which leaves the old foot without impulse: with its e
+//! that is m h b/(I_cg + m h^2). The pivot must then rise. An impulse with friction mu at the new
+//! foot lifts the pivot if
 //!
 //! ```text
 //! I_cg - m b^2 + mu m h b >= 0
@@ -47,7 +54,7 @@ pub struct Regime {
     pub friction: f64,
     /// Largest |F|/N while the feet press on the ground, at rest and rocking.
     pub friction_needed: TimedPeak,
-    /// P_x/P_y of Housner's landing: the friction coefficient needed not to slide in an impact.
+    /// P_x/P_y of its landings: the friction coefficient needed not to slide in an impact.
     pub landing_friction: f64,
     /// First time with N <= 0, and the lowest N/(m g) of the history.
     pub free_flight: Option<TimedPeak>,
@@ -103,10 +110,25 @@ pub fn check(
     Regime {
         friction,
         friction_needed: worst.friction,
-        landing_friction: body.mass * body.height * body.half_width
-            / (body.inertia + body.mass * body.height.powi(2)),
+        landing_friction: landing_friction(body, rocking),
         free_flight: worst.flight.map(|time| TimedPeak { value: worst.lowest, time }),
         too_stocky: stockiness(body, friction),
+    }
+}
+
+/// P_x/P_y of the landings of a history, by the restitution that they have; without any, by
+/// equation (2).
+fn landing_friction(body: &Body<f64>, rocking: &Rocking<f64>) -> f64 {
+    let lost = |before: f64, after: f64| (before - after) / (before + after);
+    let landing = rocking.impacts.iter().map(|impact| [impact.rate_before, impact.rate_after]);
+    // one that ends the motion is no rule
+    let landing = landing.map(|rates| rates.map(f64::abs)).find(|[_, after]| *after > 0.0);
+    match landing {
+        Some([before, after]) => body.height / body.half_width * lost(before, after),
+        None => {
+            body.mass * body.height * body.half_width
+                / (body.inertia + body.mass * body.height.powi(2))
+        }
     }
 }
 

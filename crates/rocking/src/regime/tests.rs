@@ -188,3 +188,37 @@ fn what_a_falling_body_asks_of_the_ground_does_not_count() {
             > 1.5 * regime.friction_needed.value
     );
 }
+
+/// What a landing asks of the ground is its momentum along over its momentum upwards, by the
+/// velocities of the centre of mass on either side of it, whatever the restitution and the inertia:
+/// of a body 3.818 times as high as wide that keeps 0.82, 3.818 0.18/1.82 = 0.378.
+#[test]
+fn a_landing_that_loses_more_asks_for_more_friction() {
+    let frame = Structure::a_frame(38.18, 20.0, 4e5).unwrap().body::<f64>();
+    for (body, e) in [(frame, 0.82), (block(2.0, 0.6), 0.7)] {
+        let dt = 1e-5;
+        let options = RockingOptions {
+            restitution: Some(e),
+            initial: Some((0.3 * body.alpha(), 0.0)),
+            ..RockingOptions::default()
+        };
+        let still = vec![0.0; 250_000];
+        let rocking = solve(&body, dt, &still, &options);
+        let (u, v) = {
+            let motion = rocking.motion(&body);
+            (motion.u, motion.v)
+        };
+        let at = (rocking.impacts[0].time / dt) as usize;
+        let speed = |x: &[f64], i: usize| (x[i + 1] - x[i]) / dt;
+        let [along, up] = [&u, &v].map(|x| speed(x, at + 2) - speed(x, at - 3));
+        let regime = check(&body, dt, (&still, &[]), 1.0, &rocking, 0.5);
+        let due = along.abs() / up;
+        assert!((regime.landing_friction / due - 1.0).abs() < 1e-3, "{regime:?} {due}");
+        let by_hand = body.height / body.half_width * (1.0 - e) / (1.0 + e);
+        assert!((regime.landing_friction / by_hand - 1.0).abs() < 1e-9, "{regime:?} {by_hand}");
+        // more than by equation 2, and more than the motion between impacts asks for
+        assert!(regime.landing_friction > regime.friction_needed.value, "{regime:?}");
+    }
+    let by_hand: f64 = 3.818 * 0.18 / 1.82;
+    assert!((by_hand - 0.378).abs() < 5e-4);
+}
