@@ -123,7 +123,9 @@ fn rigid(
     let until = predictable_to(&o.record, &parameters, &record);
     let (text, line) = match stepping {
         Stepping::Events => (deck_of(&parameters, &record, o.format, o.accuracy, until)?, line),
-        stepping => told(stepped_deck(&parameters, &record, o.format, stepping, until)?, line),
+        stepping => {
+            told(stepped_deck(&parameters, &record, o.format, stepping, until)?, o.format, line)
+        }
     };
     Ok(ExportedDeck { text, record, line })
 }
@@ -165,8 +167,10 @@ pub(super) fn predictable_to(
 }
 
 /// The text of a deck, and what to say of it besides the record.
-fn told(deck: SteppedDeck, record: String) -> (String, String) {
-    let (text, line) = deck.told("the deck");
+fn told(deck: SteppedDeck, format: DeckFormat, record: String) -> (String, String) {
+    // a table of springs has no history of its own
+    let name = if format == DeckFormat::Csv { "a history in these steps" } else { "the deck" };
+    let (text, line) = deck.told(name);
     (text, line.map_or(record.clone(), |line| format!("{record}\n{line}")))
 }
 
@@ -185,7 +189,7 @@ fn elastic(
         (stepping, Some(program)) => {
             let program = CornerProgram::new(&assembled, program, stepping)?;
             let deck = stepped_deck_of(&assembled, &program, &record, o.format, until)?;
-            let (text, line) = told(deck, excitation.line());
+            let (text, line) = told(deck, o.format, excitation.line());
             return Ok(ExportedDeck { text, record, line });
         }
         (_, None) => return Err(ExportError::NoProgram.into()),

@@ -19,7 +19,7 @@ use super::{
 };
 use decks::{
     ACCURACY,
-    verify::{ComparedPeak, LIMIT, Program, Verification, verify},
+    verify::{ComparedPeak, LIMIT, Program, Slip, Verification, verify},
 };
 use figures::history::{self, HistoryFigure, Trace};
 use files::message::percent;
@@ -176,12 +176,30 @@ fn judged(result: &Verification) -> String {
             "judged up to {until:.2} s: beyond it a change of 0.1 % moves the motion too much"
         ),
     };
-    let _ = writeln!(
-        out,
-        "{agrees}: OpenSees is {whether} {LIMIT} of tune simulate's u: {:.1e}",
-        verdict.error
-    );
-    if let Some(parted) = verdict.parted {
+    let _ = match &verdict.slip {
+        Some(slip) => writeln!(
+            out,
+            "{agrees}: nothing lifts; largest and final slip of OpenSees are {whether} {} of tune \
+                simulate's largest: {}",
+            percent(Slip::LIMIT),
+            percent(slip.error())
+        ),
+        None => writeln!(
+            out,
+            "{agrees}: OpenSees is {whether} {LIMIT} of tune simulate's u: {:.1e}",
+            verdict.error
+        ),
+    };
+    if let Some(slip) = &verdict.slip {
+        let mm = |x: [f64; 2]| x.map(|x| format!("{:.3}", 1e3 * x));
+        let ([largest, of_deck], [last, last_of_deck]) = (mm(slip.largest_m), mm(slip.last_m));
+        let _ = writeln!(
+            out,
+            "largest slip {largest} mm, of OpenSees {of_deck} mm; final slip {last} mm, \
+                {last_of_deck} mm"
+        );
+    }
+    if let Some(parted) = verdict.parted.filter(|_| verdict.slip.is_none()) {
         let _ = writeln!(out, "OpenSees first differs by 1 % of the largest u at {parted:.2} s");
     }
     if result.late > 0 {
@@ -191,7 +209,7 @@ fn judged(result: &Verification) -> String {
             result.late
         );
     }
-    if result.swings == [0; 2] {
+    if result.swings == [0; 2] && verdict.slip.is_none() {
         out += "NOTE: what is judged has no swing from foot to foot: no landing is tested\n";
     }
     out + FORCES
@@ -200,6 +218,13 @@ fn judged(result: &Verification) -> String {
 /// Why OpenSees is off: its steps, or the springs.
 fn refusal(result: &Verification) -> String {
     let error = result.verdict.error;
+    if let Some(slip) = &result.verdict.slip {
+        return format!(
+            "verify: OpenSees' slip is off by {} of the largest; ask for finer steps with \
+                --accuracy, or another --duration",
+            percent(slip.error())
+        );
+    }
     let own = result.finer.map_or(0.0, |finer| finer.against_itself);
     if let Some(finer) = result.finer.filter(|finer| finer.error <= LIMIT) {
         format!(

@@ -24,7 +24,7 @@ use rocking::{
     motion::{Motion, nrmse},
 };
 use strong_motion::Record;
-pub use verdict::{LIMIT, OpenSeesVerdict};
+pub use verdict::{LIMIT, OpenSeesVerdict, Slip};
 
 /// Wall time a run may take before it counts as hung: this, and a time per sample of the record
 /// (s).
@@ -94,7 +94,7 @@ pub struct Verification {
     pub within_one_percent: bool,
     /// Whether OpenSees is within its limit, and how it was judged.
     pub verdict: OpenSeesVerdict,
-    /// The same in finer steps, where it is not within its limit.
+    /// The same in finer steps, where it is not within its limit and rocks.
     pub finer: Option<FinerSteps>,
     /// What the deck printed.
     pub report: String,
@@ -133,7 +133,7 @@ pub enum VerifyError {
         "verify: OpenSees did not end within {seconds:.0} s and was stopped; shorten --duration"
     )]
     Hung { seconds: f64 },
-    #[error("verify: OpenSees stopped ({reason}); try another --duration or stiffer springs")]
+    #[error("verify: OpenSees stopped ({reason}); {}", after_stop(reason))]
     Stopped { reason: String },
     #[error(
         "verify: {path} is not the history the deck writes ({reason}); run the deck by hand to see \
@@ -145,6 +145,18 @@ pub enum VerifyError {
     #[error(transparent)]
     Export(#[from] ExportError),
 }
+
+/// What to do where OpenSees stopped for a reason: of what it lacks the deck tells itself.
+fn after_stop(reason: &str) -> &'static str {
+    if reason.contains(LACKS) {
+        "leave out --tcl, or name an OpenSees of version 3.5 or later"
+    } else {
+        "try another --duration or stiffer springs"
+    }
+}
+
+/// What the deck for Tcl says of an OpenSees that is too old for it.
+const LACKS: &str = "has no damping objects";
 
 /// Run the deck of `parameters` on `record` in `program` and compare; its steps follow from
 /// `accuracy`, a normalised error. `until`: up to when the run found that the motion can be
@@ -182,7 +194,12 @@ pub fn verify(
     let ours = history.motion.first(expected.samples);
     let housner = housner.first(expected.samples);
     let verdict = OpenSeesVerdict::new(&run.motion, &ours, &body, record.dt, foretold);
-    let finer = match verdict.within {
+    let lifts = !history.landings.is_empty() || history.airborne > 0.0;
+    let verdict = match parameters.members().friction.filter(|_| !lifts) {
+        Some(_) => verdict.of_slip(&run.motion, &ours),
+        None => verdict,
+    };
+    let finer = match verdict.within || verdict.slip.is_some() {
         true => None,
         false => {
             let accuracy = accuracy * FINER;

@@ -27,6 +27,29 @@ pub struct OpenSeesVerdict {
     pub end: Option<ForetoldEnd>,
     /// When OpenSees first is off by one hundredth of the largest u (s).
     pub parted: Option<f64>,
+    /// Of a body that slides and never lifts, which is judged by this instead.
+    pub slip: Option<Slip>,
+}
+
+/// Slip of our own history and of OpenSees' (m).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slip {
+    /// The largest.
+    pub largest_m: [f64; 2],
+    /// That of the last sample judged, with its sign.
+    pub last_m: [f64; 2],
+}
+
+impl Slip {
+    /// Largest difference of the two that passes, as a share of the largest slip.
+    pub const LIMIT: f64 = 0.01;
+
+    /// The larger difference, of the largest slips and of the last, over our largest.
+    pub fn error(&self) -> f64 {
+        let apart = |[ours, opensees]: [f64; 2]| (ours - opensees).abs();
+        let most = apart(self.largest_m).max(apart(self.last_m));
+        if most == 0.0 { 0.0 } else { most / self.largest_m[0] }
+    }
 }
 
 impl OpenSeesVerdict {
@@ -53,7 +76,20 @@ impl OpenSeesVerdict {
             until: until.map(|samples| time(samples.saturating_sub(1))),
             end,
             parted: parted.map(time),
+            slip: None,
         }
+    }
+
+    /// The same judged by the slip of a body that never lifts: when a foot slips hangs on the
+    /// smallest forces, how far it goes does not.
+    #[must_use]
+    pub(crate) fn of_slip(self, opensees: &Motion, ours: &Motion) -> Self {
+        let both = [ours, opensees].map(|motion| &motion.u[..self.samples.min(motion.u.len())]);
+        let slip = Slip {
+            largest_m: both.map(|u| peak(u).abs()),
+            last_m: both.map(|u| u.last().copied().unwrap_or(0.0)),
+        };
+        Self { within: slip.error() <= Slip::LIMIT, slip: Some(slip), ..self }
     }
 }
 
@@ -93,6 +129,26 @@ mod tests {
         assert!(verdict.within && verdict.samples == 50);
         assert_eq!((verdict.until, verdict.parted), (Some(0.49), Some(0.6)));
         assert!(!judged(0.5, 40, Some(50)).within);
+    }
+
+    /// A body that slides to 20 mm and back to 15 mm: 0.9 % of 20 mm passes, of the largest as of
+    /// the last, and 1.1 % does not, however far histories are apart in between.
+    #[test]
+    fn a_body_that_slides_is_judged_by_how_far_it_goes_and_where_it_ends() {
+        let slide = |largest: f64, between: f64, last: f64| {
+            let u = vec![0.0, largest, between, last];
+            Motion { v: vec![0.0; 4], theta: vec![0.0; 4], u }
+        };
+        let ours = slide(0.02, 0.018, 0.015);
+        let judged = |other: &Motion| {
+            OpenSeesVerdict::new(other, &ours, &Structure::paper().body(), 0.01, None)
+                .of_slip(other, &ours)
+        };
+        let near = judged(&slide(0.020_18, 0.005, 0.014_82));
+        assert!(near.within && (near.slip.unwrap().error() - 0.009).abs() < 1e-9, "{near:?}");
+        assert!(near.error > LIMIT);
+        assert!(!judged(&slide(0.020_22, 0.018, 0.015)).within);
+        assert!(!judged(&slide(0.02, 0.018, 0.015_22)).within);
     }
 
     /// A millimetre of a frame 6.1 m wide to each side is standing: an error of a tenth of that is
