@@ -23,7 +23,7 @@ use run_folder::{
 use strong_motion::Record;
 
 /// Largest NRMSE of rotation between OpenSees and our own history, while a change of the motion
-/// grows less than 30-fold: OpenSees' steps miss more than ours; of drift, five times that.
+/// grows less than 30-fold: OpenSees' steps miss more than ours; of bending, five times that.
 const LIMIT: f64 = 0.002;
 const LOOSER: f64 = 5.0;
 
@@ -94,13 +94,13 @@ pub fn run(
         return Ok(());
     }
     let refusal = format!(
-        "verify: OpenSees is off by {rotation:.1e} in rotation and {drift:.1e} in drift; ask for \
+        "verify: OpenSees is off by {rotation:.1e} in rotation and {drift:.1e} in bending; ask for \
             finer steps with --accuracy, or stiffer springs"
     );
     Err(CommandError::Failed(refusal))
 }
 
-/// Whether OpenSees is as near as is asked, in rotation and drift.
+/// Whether OpenSees is as near as is asked, in rotation and bending.
 fn within([rotation, drift]: [f64; 2]) -> bool {
     rotation <= LIMIT && drift <= LOOSER * LIMIT
 }
@@ -133,7 +133,7 @@ fn said<T>(
     // writing to a String does not fail
     let _ = writeln!(
         said,
-        "{}: OpenSees is {} {LIMIT} of our own rotation ({rotation:.1e}) and {} of our drift \
+        "{}: OpenSees is {} {LIMIT} of our own rotation ({rotation:.1e}) and {} of our bending \
             ({drift:.1e}), NRMSE {over}",
         if within([rotation, drift]) { "AGREES" } else { "DOES NOT AGREE" },
         if within([rotation, drift]) { "within" } else { "NOT within" },
@@ -149,7 +149,8 @@ fn said<T>(
     said + FORCES
 }
 
-/// Displacement of the top, uplift of a corner, rotation and drift; of several bases the largest.
+/// Displacement of the top, uplift of a corner, rotation and displacement by bending; of several
+/// bases the largest.
 fn peaks(assembled: &Assembled, ours: &[Vec<f64>], opensees: &[Vec<f64>]) -> Vec<ComparedPeak> {
     let frame = &assembled.frame;
     let top = assembled.watched.first().map_or(0, |watched| watched.top);
@@ -171,7 +172,7 @@ fn peaks(assembled: &Assembled, ours: &[Vec<f64>], opensees: &[Vec<f64>]) -> Vec
         ComparedPeak::new(("top displacement", "m"), &at_top(ours), &at_top(opensees), small),
         ComparedPeak::new(("uplift", "m"), &uplift(ours), &uplift(opensees), small),
         of(("rotation", "rad"), |sway| sway.rotation, STILL),
-        of(("drift", "m"), |sway| sway.drift, small),
+        of(("displacement by bending", "m"), |sway| sway.drift, small),
     ]
 }
 
@@ -246,7 +247,7 @@ fn draw(
         .flat_map(|(rotation, drift)| {
             [
                 StackQuantity { name: "rotation", unit: "rad", curves: rotation },
-                StackQuantity { name: "drift", unit: "m", curves: drift },
+                StackQuantity { name: "bending", unit: "m", curves: drift },
             ]
         })
         .collect();
