@@ -26,13 +26,16 @@ use report::{
     screen::{Written, screen},
     stiffness_tradeoff,
 };
-use results::NotDone;
+use results::{FiledFinding, Finding, NotDone};
 use run_folder::{
     folder::{Folder, identity},
     place::{check_folder, write_file},
     rigid::{Output, filed, files, save, write_report},
 };
-use springs::job::{Job, MOST_WORK};
+use springs::{
+    job::{Job, MOST_WORK},
+    landing_simulation::ATTAINABLE,
+};
 use strong_motion::{Record, excitation::Excitation};
 
 /// Options of `tune run`.
@@ -128,6 +131,7 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     if !o.no_record {
         progress::taken(&case.excitation.line(), &case.doubts(), o.quiet);
     }
+    out_of_reach(&case, o.quiet);
     let progress = Progress::on_terminal("springs tried", o.quiet);
     let effort = o.effort.of(MOST_WORK)?;
     let job = Job::within(&case, &effort, &|done, all, error| {
@@ -157,6 +161,21 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     let left_out = save(&run, &o.out, Output { figures: !o.no_figures, report: !o.no_report })?;
     o.print(&run.said(filed(&run, &o.out)), &left_out)?;
     ended(&effort, &o.out)
+}
+
+/// Say at once of a restitution that no springs have, before a search of minutes for the nearest.
+fn out_of_reach(case: &Case, quiet: bool) {
+    let (asked, body) = (case.restitution, case.structure.body::<f64>());
+    let share = asked / body.restitution();
+    let (least, most) = ATTAINABLE;
+    if quiet || (least..=most).contains(&share) {
+        return;
+    }
+    let finding = FiledFinding::from(Finding::RestitutionOutOfReach { asked, share, least, most });
+    terminal::stderr(format_args!("warning: {}", finding.line()));
+    terminal::stderr(
+        "Housner's answer takes any restitution: --time-limit 1 ends the search for springs early",
+    );
 }
 
 impl RunOptions {
