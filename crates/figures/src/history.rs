@@ -1,6 +1,8 @@
 //! Displacement of the centre of mass against time: finite element against Housner, the paper's
 //! Figure 4.
 
+mod shown;
+
 use plotters::style::RGBColor;
 use plotters::style::text_anchor::{HPos, VPos};
 
@@ -14,6 +16,7 @@ use super::plot::{self, EventMark};
 use super::scale::{Scale, around_zero};
 use super::style::{self, BLACK, NUMBER, Pen, WIDTH};
 use super::{Check, FigureError, Sheet};
+use shown::shown;
 
 const CHECK: Check = Check("history");
 const LEFT: f64 = 150.0;
@@ -45,9 +48,17 @@ pub struct Trace<'a> {
     pub impacts: &'a [f64],
     /// When it overturned or ended; what follows is a fall, and shown in part.
     pub end: Option<EventMark<'a>>,
+    /// Whether its peaks are told however small beside another's: those of another structure.
+    pub answers: bool,
 }
 
-impl Trace<'_> {
+impl<'a> Trace<'a> {
+    /// Its first n samples.
+    fn first(&self, n: usize) -> Trace<'a> {
+        let of = |x: &'a [f64]| &x[..n.min(x.len())];
+        Trace { u: of(self.u), v: of(self.v), ..*self }
+    }
+
     /// How many of its samples come before its end.
     fn standing(&self, t: &[f64]) -> usize {
         self.end.map_or(self.u.len(), |end| t.partition_point(|t| *t <= end.time)).min(self.u.len())
@@ -78,6 +89,14 @@ type Drawn<'a> = (Trace<'a>, Pen);
 /// [`FigureError`] for an empty or not finite slice, and for a history longer than the time axis.
 pub fn draw(data: &HistoryFigure<'_>) -> Result<Sheet, FigureError> {
     check(data)?;
+    let n = shown(data);
+    let others: Vec<Trace> = data.others.iter().map(|trace| trace.first(n)).collect();
+    let data = &HistoryFigure {
+        t: &data.t[..n],
+        reference: data.reference.first(n),
+        others: &others,
+        ..*data
+    };
     let traces: Vec<Drawn> = std::iter::once((data.reference, Pen::new(BLACK, 5.0)))
         .chain(data.others.iter().enumerate().map(|(i, trace)| (*trace, pen(i))))
         .collect();
@@ -269,7 +288,8 @@ fn differences(canvas: &mut Canvas, data: &HistoryFigure<'_>, x: Scale, frame: P
 }
 
 /// Mark every model's extreme on one side, and tell them in one line beyond the outermost, where no
-/// curve can be. What only a fall reaches is no peak.
+/// curve can be; a small one of another structure beside its own mark. What only a fall reaches is
+/// no peak.
 fn peak<'a>(
     canvas: &mut Canvas,
     panel: &Panel,
@@ -286,22 +306,40 @@ fn peak<'a>(
             .fold(0, |best, i| if values[i] * side > values[best] * side { i } else { best });
         let value = values.get(best).map_or(0.0, |x| x / unit);
         let falls = trace.end.is_some() && best + 2 >= standing;
-        (value * side > least && !falls).then(|| (t[best], value, pen.rgb()))
+        (value * side > least && !falls)
+            .then(|| (trace.answers, DrawnPeak { time: t[best], value, colour: pen.rgb() }))
     };
-    let peaks: Vec<(f64, f64, RGBColor)> = traces.iter().filter_map(peak_of).collect();
-    let further =
-        |a: &&(f64, f64, RGBColor), b: &&(f64, f64, RGBColor)| a.1.abs().total_cmp(&b.1.abs());
-    let Some(&(time, value, _)) = peaks.iter().max_by(further) else { return };
+    let peaks: Vec<(bool, DrawnPeak)> = traces.iter().filter_map(peak_of).collect();
+    let further = |a: &&DrawnPeak, b: &&DrawnPeak| a.value.abs().total_cmp(&b.value.abs());
+    let Some(outermost) = peaks.iter().map(|(_, peak)| peak).max_by(further) else { return };
+    let large = |peak: &DrawnPeak| peak.value.abs() >= SMALL * outermost.value.abs();
+    let together: Vec<&DrawnPeak> =
+        peaks.iter().map(|(_, peak)| peak).filter(|p| large(p)).collect();
+    tell(canvas, panel, outermost, &together, side);
+    for (_, peak) in peaks.iter().filter(|(answers, peak)| *answers && !large(peak)) {
+        tell(canvas, panel, peak, &[peak], side);
+    }
+}
+
+/// A model's extreme: when (s), its value in the panel's unit, its colour.
+struct DrawnPeak {
+    time: f64,
+    value: f64,
+    colour: RGBColor,
+}
+
+/// Marks of peaks, and their numbers in one line beyond one of them.
+fn tell(canvas: &mut Canvas, panel: &Panel, beyond: &DrawnPeak, peaks: &[&DrawnPeak], side: f64) {
     let mut told: Vec<(String, RGBColor)> = Vec::new();
-    for &(time, own, colour) in peaks.iter().filter(|peak| peak.1.abs() >= SMALL * value.abs()) {
+    for &&DrawnPeak { time, value, colour } in peaks {
         let radius = if told.is_empty() { 8.0 } else { 5.0 };
-        Mark::new(MarkShape::Disc, radius, colour).draw(canvas, panel.at(time, own));
-        told.push((short(own, if own.abs() < 100.0 { 3 } else { 4 }), colour));
+        Mark::new(MarkShape::Disc, radius, colour).draw(canvas, panel.at(time, value));
+        told.push((short(value, if value.abs() < 100.0 { 3 } else { 4 }), colour));
     }
     let lettering = Lettering::new(NUMBER).bold();
     let gap = 16.0;
     let length: f64 = told.iter().map(|(text, _)| lettering.length(text) + gap).sum::<f64>() - gap;
-    let at = panel.at(time, value);
+    let at = panel.at(beyond.time, beyond.value);
     let mut left =
         (at.0 - length / 2.0).clamp(panel.frame.left + 8.0, panel.frame.right - length - 4.0);
     for (text, colour) in told {

@@ -102,6 +102,7 @@ fn empty_or_unequal_or_not_finite_numbers_are_errors() {
         v: &[0.0, 0.1, 0.0],
         impacts: &[],
         end: None,
+        answers: false,
     };
     let with = |t, reference| history::HistoryFigure {
         title: "",
@@ -173,7 +174,14 @@ fn empty_or_unequal_or_not_finite_numbers_are_errors() {
 #[test]
 fn the_least_data_still_makes_a_picture() {
     let (t, still) = ([0.0, 1.0], [0.0, 0.0]);
-    let trace = history::Trace { label: "Housner", u: &still, v: &still, impacts: &[], end: None };
+    let trace = history::Trace {
+        label: "Housner",
+        u: &still,
+        v: &still,
+        impacts: &[],
+        end: None,
+        answers: false,
+    };
     let data = history::HistoryFigure {
         title: "",
         t: &t,

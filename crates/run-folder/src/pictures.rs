@@ -102,7 +102,11 @@ impl Pictures<'_> {
 
     /// What is drawn, said of a structure with members.
     fn with_members(&self, what: &str) -> String {
-        let with = if self.both.with.is_some() { ", with members" } else { "" };
+        let with = match &self.both.with {
+            Some(with) if with.members.friction.is_some() => ", with friction",
+            Some(_) => ", with members",
+            None => "",
+        };
         format!("{what}{with}")
     }
 
@@ -151,6 +155,7 @@ impl Pictures<'_> {
             v: &housner.v,
             impacts: &impacts_housner,
             end: event(&end),
+            answers: false,
         };
         let other = figures::history::Trace {
             label: &self.with_members("finite elements on ground springs"),
@@ -158,6 +163,7 @@ impl Pictures<'_> {
             v: &fem.motion.v,
             impacts: &impacts_fem,
             end: event(&fall),
+            answers: self.both.with.is_some(),
         };
         let title = self.title(what);
         let data = figures::history::HistoryFigure {

@@ -44,19 +44,34 @@ fn draw_history(three: bool) -> Result<Sheet, FigureError> {
     let (u2, v2) = rocking(&t, 0.98, 0.03);
     let (z, z1) = (zeros(&t, &u), zeros(&t, &u1));
     let others = [
-        history::Trace { label: "finite element", u: &u1, v: &v1, impacts: &z1, end: None },
+        history::Trace {
+            label: "finite element",
+            u: &u1,
+            v: &v1,
+            impacts: &z1,
+            end: None,
+            answers: false,
+        },
         history::Trace {
             label: "OpenSees",
             u: &u2[..1900],
             v: &v2[..1900],
             impacts: &[],
             end: None,
+            answers: false,
         },
     ];
     let data = history::HistoryFigure {
         title: "Apex displacement, 61 × 12.2 m A-frame, El Centro 1940 N-S",
         t: &t,
-        reference: history::Trace { label: "Housner", u: &u, v: &v, impacts: &z, end: None },
+        reference: history::Trace {
+            label: "Housner",
+            u: &u,
+            v: &v,
+            impacts: &z,
+            end: None,
+            answers: false,
+        },
         others: if three { &others } else { &others[..1] },
         differences: three,
     };
