@@ -71,7 +71,12 @@ pub fn run(o: &SimulateOptions) -> Result<(), CommandError> {
     }
     terminal::stderr(excitation.line());
     let housner = HousnerReport::new(&body, e, &record, &both.rocking, friction);
-    let housner = housner.with_members(&body, &record, &both);
+    let housner = housner.with_members(&body, &record, &both).with_conditioning(
+        &body,
+        &parameters.chains(),
+        &record,
+        &both,
+    );
     let verdict = both.verdict(&body, record.dt, &housner.conditioning);
     for finding in filed(reference::all(&parameters.structure, &record, &both, &housner, &verdict))
     {

@@ -4,14 +4,18 @@
 //! much more accurately than anyone needs. A deck's steps become finer where that is so
 //! (`decks::model`).
 
-use crate::Parameters;
-use dynamics::fem::{Analysis, History};
+use crate::{Parameters, answers::MemberHistory};
+use dynamics::{
+    fem::{Analysis, History},
+    spring::{Chain, Springs},
+};
+use results::Finding;
 use rocking::{
-    conditioning::Conditioning,
+    conditioning::{self, Conditioning, ILL_CONDITIONED},
     housner::RockingOptions,
     motion::{Motion, nrmse, samples_until},
     scalar::GRAVITY,
-    structure::Structure,
+    structure::{Body, Structure},
 };
 use strong_motion::Record;
 
@@ -48,6 +52,78 @@ pub fn slightly_wider(parameters: &Parameters, record: &Record) -> Motion {
         ..parameters.structure
     };
     simulate(&Parameters { structure, ..parameters.clone() }, record).motion
+}
+
+/// How far a change of 0.1 % moves the history of a structure with members: the larger of both
+/// signs, as NRMSE of u.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MembersConditioning {
+    /// Of the width.
+    pub moved_by_width: f64,
+    /// Of the record's scale.
+    pub moved_by_scale: f64,
+    /// Up to when none moves it by a twentieth of its largest displacement so far (s), as
+    /// [`conditioning::Changes::holds_to_s`]; none: to its end.
+    pub holds_to_s: Option<f64>,
+}
+
+impl MembersConditioning {
+    /// Of `with`, the history on these springs.
+    pub fn new(
+        body: &Body<f64>,
+        springs: &Springs<Chain>,
+        record: &Record,
+        with: &MemberHistory,
+    ) -> Self {
+        let change = conditioning::CHANGES[0];
+        let changed = [(change, 0.0), (-change, 0.0), (0.0, change), (0.0, -change)];
+        let changed: Vec<Vec<f64>> = parallel::map(&changed, |(width, scale)| {
+            let body = Body { half_width: body.half_width * (1.0 + width), ..*body };
+            let analysis = Analysis {
+                vertical: record.up(),
+                scale: 1.0 + scale,
+                ..Analysis::new(body, *springs, record.dt, &record.accel)
+            };
+            analysis.simulate_with(&with.members).0.motion.u
+        });
+        let standing = samples_until(with.matched.overturned_fem_s, record.dt);
+        let u = &with.history.motion.u;
+        let u = &u[..standing.min(u.len())];
+        let moved = |pair: &[Vec<f64>]| {
+            let one = |other: &Vec<f64>| {
+                let samples = other.len().min(u.len());
+                Some(nrmse(&other[..samples], &u[..samples])).filter(|x| x.is_finite())
+            };
+            pair.iter().map(|other| one(other).unwrap_or(1.0)).fold(0.0, f64::max)
+        };
+        Self {
+            moved_by_width: moved(&changed[..2]),
+            moved_by_scale: moved(&changed[2..]),
+            holds_to_s: conditioning::holds_to(body, record.dt, u, &changed),
+        }
+    }
+
+    /// Whether the history can be compared one to one.
+    pub fn well_conditioned(&self) -> bool {
+        let most = ILL_CONDITIONED * conditioning::CHANGES[0];
+        self.moved_by_width.max(self.moved_by_scale) < most
+    }
+
+    /// That it cannot, with what moves it.
+    pub fn finding(&self) -> Option<Finding> {
+        (!self.well_conditioned()).then_some(Finding::IllConditioned {
+            moved_by_width: self.moved_by_width,
+            moved_by_scale: self.moved_by_scale,
+            moved_by_restitution: None,
+            holds_to_s: self.holds_to_s,
+            springs_judged: false,
+        })
+    }
+
+    /// Up to when it can be predicted (s), if it is not well-conditioned; none: to its end.
+    pub fn predictable_to(&self) -> Option<f64> {
+        self.holds_to_s.filter(|_| !self.well_conditioned())
+    }
 }
 
 /// Why a history cannot be foretold to its end.
@@ -146,6 +222,9 @@ pub fn simulate(parameters: &Parameters, record: &Record) -> History {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::answers::both;
+    use dynamics::spring::Design;
+    use rocking::members::{Damper, Members};
 
     #[test]
     fn the_error_of_a_motion_that_only_stands_counts_by_a_thousandth_of_its_size() {
@@ -153,5 +232,25 @@ mod tests {
         assert_eq!([share(&[0.01, -0.01]), share(&[])], [1.0, 0.0]);
         assert!((share(&[1e-8, -1e-8]) / 5e-5 - 1.0).abs() < 1e-12);
         assert!((share(&[1e-8, -1e-8, 0.0, 0.0]) / (5e-5 / 2.0_f64.sqrt()) - 1.0).abs() < 1e-12);
+    }
+
+    /// A body that does not lift sways on its springs in proportion to the ground: a change of the
+    /// scale by 0.1 % moves it by 0.1 %, and it is well-conditioned to its end.
+    #[test]
+    fn a_standing_body_with_members_is_moved_as_the_ground_is() {
+        let structure = Structure::a_frame(9.0, 2.1, 120e3).unwrap();
+        let body = structure.body::<f64>();
+        let shake = (0..400).map(|i| 0.3 * (0.05 * f64::from(i)).sin()).collect();
+        let record = Record::new("shake", 0.01, shake).unwrap();
+        let design = Design::from_kc(0.3, 0.1, 0.75, 160.0);
+        let springs = Springs { vertical: design, horizontal: design }.chains(120e3);
+        let damper = Some(Damper { c: 1e5 });
+        let members = Members { damper, ..Members::default() };
+        let both = both(&body, body.restitution(), &springs, &members, &record);
+        let with = both.with.as_ref().unwrap();
+        assert!(with.history.landings.is_empty());
+        let of = MembersConditioning::new(&body, &springs, &record, with);
+        assert!((of.moved_by_scale / 1e-3 - 1.0).abs() < 0.02, "{of:?}");
+        assert!(of.well_conditioned() && of.predictable_to().is_none(), "{of:?}");
     }
 }

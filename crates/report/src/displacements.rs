@@ -10,8 +10,6 @@ type PeakRow =
 
 /// The row of the friction needed.
 pub(crate) const FRICTION: &str = "friction needed";
-/// The column of differences.
-pub(crate) const DIFFERENCE: usize = 3;
 /// The row of how far from where they stood feet have landed, when the top's displacement is
 /// largest.
 const MOVED: &str = "  of it feet landed elsewhere";
@@ -74,12 +72,16 @@ pub fn peak_table(run: &Run) -> Option<Table> {
     };
     // what is largest after the motion can be foretold is marked
     let until = run.predictable_to();
-    let late = |when: fn(&PeakTimes) -> Option<f64>, peaks: &Peaks| {
+    let without = if with.is_some() { run.without_to() } else { until };
+    let late = |when: fn(&PeakTimes) -> Option<f64>, peaks: &Peaks, until: Option<f64>| {
         let times = peaks.times.as_ref().zip(until);
         times.is_some_and(|(times, until)| when(times) > Some(until))
     };
-    let any = |peaks: &Peaks| ROWS.iter().any(|row| late(row.3, peaks));
-    let largest = match any(&pair.reference) || any(&pair.springs) {
+    let any = |peaks: &Peaks, until: Option<f64>| ROWS.iter().any(|row| late(row.3, peaks, until));
+    let largest = match any(&pair.reference, without)
+        || any(&pair.springs, without)
+        || with.is_some_and(|with| any(with, until))
+    {
         true => "largest (* not predictable)",
         false => "largest",
     };
@@ -90,8 +92,8 @@ pub fn peak_table(run: &Run) -> Option<Table> {
     };
     let mut head = vec![largest.to_string(), reference, on_springs, "difference".into()];
     head.extend(with.map(|_| match pair.with_members_end_s {
-        Some(end) => format!("with members, ONLY to {} s", significant(end, 3)),
-        None => "with members".into(),
+        Some(end) => format!("{}, ONLY to {} s", run.members_words(), significant(end, 3)),
+        None => run.members_words().into(),
     }));
     let row = |(name, of, words, when): PeakRow| {
         let part = |peaks: &Peaks| {
@@ -120,21 +122,22 @@ pub fn peak_table(run: &Run) -> Option<Table> {
         } else {
             ""
         };
-        let cell = |value: f64, peaks: &Peaks| {
-            format!("{}{}", words(value), if late(when, peaks) { "*" } else { "" })
+        let cell = |value: f64, peaks: &Peaks, until: Option<f64>| {
+            format!("{}{}", words(value), if late(when, peaks, until) { "*" } else { "" })
         };
         let mut row = vec![
             format!("{name}{counted}"),
-            cell(a, &pair.reference),
-            cell(b, &pair.springs),
+            cell(a, &pair.reference, without),
+            cell(b, &pair.springs, without),
             difference,
         ];
-        row.extend(with.and_then(|with| Some(cell(of(with)?, with))));
+        row.extend(with.and_then(|with| Some(cell(of(with)?, with, until))));
         Some(row)
     };
     let mut table = Table::new(head).with(ROWS.into_iter().filter_map(row));
     if let Some(needed) = run.friction_needed {
-        let mut row = vec![FRICTION.to_string(), significant(needed, 3)];
+        let at = if run.friction_in_landings { " (impacts)" } else { "" };
+        let mut row = vec![FRICTION.to_string(), significant(needed, 3) + at];
         row.resize(table.head.len(), String::new());
         table.rows.push(row);
     }

@@ -11,15 +11,16 @@ use results::{DeckEnd, Finding};
 use rocking::structure::Structure;
 use strong_motion::Record;
 
-/// Of a rigid body, whose motion can be foretold up to a time, if not to its end (s).
+/// Of a rigid body, whose motion is well-conditioned or not, and can be foretold up to a time, if
+/// not to its end (s).
 pub(crate) fn rigid(
     structure: &Structure,
     parameters: &Parameters,
     record: &Record,
-    until: Option<f64>,
+    (well_conditioned, until): (bool, Option<f64>),
 ) -> Option<Finding> {
     let verdict = parameters.verdict.as_ref()?;
-    if verdict.well_conditioned
+    if well_conditioned
         && verdict.finite_elements.overturned_s.is_none()
         && record.vertical.is_none()
     {

@@ -216,6 +216,9 @@ pub struct Run {
     pub peaks: Option<PeakPair>,
     /// Friction coefficient that the reference needs.
     pub friction_needed: Option<f64>,
+    /// Whether a rigid body's landings need it, more than the motion between them.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub friction_in_landings: bool,
     /// Forces to design with; none without a record.
     pub design_forces: Option<DesignForces>,
     /// "each foot", "each corner".
@@ -243,6 +246,18 @@ pub(crate) const STEADY: &str = "lifts at a steady ground acceleration of";
 
 /// Findings for a run: answers first, then what weighs most.
 pub fn filed(findings: impl IntoIterator<Item = Finding>) -> Vec<FiledFinding> {
+    filed_as(FiledFinding::from, findings)
+}
+
+/// The same of an elastic structure.
+pub(crate) fn filed_of_elastic(findings: impl IntoIterator<Item = Finding>) -> Vec<FiledFinding> {
+    filed_as(|finding| FiledFinding::from(finding).of_elastic(), findings)
+}
+
+fn filed_as(
+    file: fn(Finding) -> FiledFinding,
+    findings: impl IntoIterator<Item = Finding>,
+) -> Vec<FiledFinding> {
     let mut all: Vec<Finding> = findings.into_iter().collect();
     // of forces that a search which was cut has not checked its own finding tells
     let cut = all.iter().any(|finding| matches!(finding, Finding::SearchCut { .. }));
@@ -253,7 +268,7 @@ pub fn filed(findings: impl IntoIterator<Item = Finding>) -> Vec<FiledFinding> {
             *if_feet_hold |= slides;
         }
     }
-    let mut all: Vec<FiledFinding> = all.into_iter().map(FiledFinding::from).collect();
+    let mut all: Vec<FiledFinding> = all.into_iter().map(file).collect();
     if let Some(until) = predictable_to(&all) {
         for filed in &mut all {
             let Some(message) = filed.finding.by_chance(until) else { continue };

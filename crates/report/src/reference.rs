@@ -1,9 +1,15 @@
 //! What a reader must know before trusting a comparison with Housner's body: how sensitive its
 //! history is, and whether rocking holds.
 
-use dynamics::fem::{self, HistoryOutcome};
+use dynamics::{
+    fem::{self, HistoryOutcome},
+    spring::{Chain, Springs},
+};
 use files::message::percent;
-use parameters::answers::{MemberHistory, ModelComparison};
+use parameters::{
+    answers::{MemberHistory, ModelComparison},
+    predictability::MembersConditioning,
+};
 use results::{Ending, Finding, FindingModel, findings::HARDLY_ROCKS};
 use rocking::{
     conditioning::Conditioning,
@@ -19,6 +25,9 @@ use validation::verdict::{Answer, Fate, Verdict};
 
 /// Largest rotation, over alpha, of a body that rocks.
 const ROCKS: f64 = 0.02;
+
+/// Share by which two friction coefficients are one.
+const SAME: f64 = 1e-6;
 
 /// Slip over the width, and rotation over alpha of a body at rest, below which they are the
 /// springs'.
@@ -40,6 +49,8 @@ pub struct HousnerReport {
     /// Of a history that is ill-conditioned: up to when no change of 0.1 % moves it by a twentieth
     /// of its largest displacement so far (s), if that is not all of it.
     pub holds_to_s: Option<f64>,
+    /// How sensitive the history with members is, if there are any: it is the answer.
+    pub of_members: Option<MembersConditioning>,
 }
 
 impl HousnerReport {
@@ -68,6 +79,7 @@ impl HousnerReport {
             lifted,
             lands: lifted,
             left_ground_s: rocking.left_ground(),
+            of_members: None,
         }
     }
 
@@ -107,6 +119,34 @@ impl HousnerReport {
         Self { regime: Regime { friction_needed: needed, ..self.regime }, lands, ..told }
     }
 
+    /// With how sensitive the history with members is, if there are any, on these springs.
+    #[must_use]
+    pub fn with_conditioning(
+        self,
+        body: &Body<f64>,
+        springs: &Springs<Chain>,
+        record: &Record,
+        both: &ModelComparison,
+    ) -> Self {
+        let with = both.with.as_ref();
+        let of_members = with.map(|with| MembersConditioning::new(body, springs, record, with));
+        Self { of_members, ..self }
+    }
+
+    /// Whether the history that is the answer is well-conditioned.
+    pub(crate) fn well_conditioned(&self) -> bool {
+        match &self.of_members {
+            Some(of) => of.well_conditioned(),
+            None => self.conditioning.well_conditioned(),
+        }
+    }
+
+    /// Whether landings ask for more friction than the motion between them.
+    pub(crate) fn needs_friction_to_land(&self) -> bool {
+        let between = self.regime.friction_needed.value;
+        self.lands && self.regime.landing_friction > (1.0 + SAME) * between
+    }
+
     /// Friction coefficient needed.
     pub(crate) fn friction_needed(&self) -> f64 {
         friction_needed(&self.regime, self.lands)
@@ -128,7 +168,7 @@ impl HousnerReport {
         if let Some(time_s) = self.left_ground_s {
             all.push(Finding::PivotLeavesGround { time_s });
         }
-        if r.friction_needed.value > available {
+        if r.friction_needed.value > available && !self.needs_friction_to_land() {
             all.push(Finding::Sliding {
                 needed: r.friction_needed.value,
                 time_s: Some(r.friction_needed.time),
@@ -167,7 +207,7 @@ pub fn all(
     report: &HousnerReport,
     of: &Verdict,
 ) -> Vec<Finding> {
-    let mut all = verdict(structure, record, both, of);
+    let mut all = verdict(structure, record, both, (of, report));
     all.extend(ill_conditioned(report, of, false));
     all.extend(report.findings_beside(both));
     all.extend(histories(both));
@@ -179,7 +219,7 @@ pub(crate) fn verdict(
     structure: &Structure,
     record: &Record,
     both: &ModelComparison,
-    verdict: &Verdict,
+    (verdict, report): (&Verdict, &HousnerReport),
 ) -> Vec<Finding> {
     let Verdict { housner, finite_elements, .. } = verdict;
     let without = || match (housner.fate, finite_elements.fate) {
@@ -209,7 +249,10 @@ pub(crate) fn verdict(
         let with = both.with.as_ref().filter(|with| with.members.friction.is_some());
         all.extend(with.and_then(|with| left_aside(structure, with)));
     }
-    all.extend(both.with.as_ref().map(|_| Finding::MembersBeside { without: did(housner) }));
+    all.extend(both.with.as_ref().map(|_| Finding::MembersBeside {
+        without: did(housner),
+        without_to_s: report.holds_to_s.filter(|_| housner.fate == Fate::Rocked),
+    }));
     all.extend(verdict.housner_without_vertical.map(|level| Finding::WithoutVertical {
         does: does(&level),
         share_of_overturning: match level.fate {
@@ -288,6 +331,9 @@ pub(crate) fn ill_conditioned(
     verdict: &Verdict,
     springs_judged: bool,
 ) -> Option<Finding> {
+    if let Some(of) = &report.of_members {
+        return of.finding().filter(|_| report.lands);
+    }
     let changes = &report.conditioning.changes;
     // a solution that ends before anything rocks is of no history
     let ends_at_once = report.left_ground_s.is_some() && verdict.housner.peak_ratio < ROCKS;
@@ -306,7 +352,9 @@ pub(crate) fn ill_conditioned(
 /// The same, with how far it rocked.
 fn did(answer: &Answer) -> String {
     let far = match answer.fate {
-        Fate::Rocked => format!(", to {} of overturning", percent(answer.peak_ratio)),
+        Fate::Rocked if answer.peak_ratio >= HARDLY_ROCKS => {
+            format!(", to {} of overturning", percent(answer.peak_ratio))
+        }
         _ => String::new(),
     };
     does(answer) + &far
@@ -315,6 +363,7 @@ fn did(answer: &Answer) -> String {
 fn does(answer: &Answer) -> String {
     match (answer.fate, answer.overturned_s) {
         (Fate::NeverLifted, _) => "never lifts".into(),
+        (Fate::Rocked, _) if answer.peak_ratio < HARDLY_ROCKS => "hardly lifts".into(),
         (Fate::Rocked, _) => "rocks and stands".into(),
         (Fate::Overturned, Some(time)) => format!("overturns at t = {time:.2} s"),
         (Fate::Overturned, None) => "overturns".into(),

@@ -17,11 +17,11 @@ use super::{
 use cases::{Case, Objective, doubts::Doubt};
 use decks::stepped_history;
 use dynamics::spring::{Design, Springs};
-use files::message::{percent, significant};
+use files::message::significant;
 use fixed_steps::FixedStepHistory;
 use limits::springs_findings;
 use parameters::{
-    ConditioningRow, PaperProcedure, Parameters,
+    PaperProcedure, Parameters,
     answers::{MemberHistory, ModelComparison, both, with_members},
     rigid_forces::design_forces,
 };
@@ -80,7 +80,12 @@ impl RigidRun {
             || HousnerReport::new(&job.body, case.restitution, &job.record, &job.rocking, friction);
         let ((both, mut parameters), ((paper, recovered), report)) =
             parallel::join(own, || parallel::join(others, report));
-        let report = report.with_members(&job.body, &job.record, &both);
+        let report = report.with_members(&job.body, &job.record, &both).with_conditioning(
+            &job.body,
+            &chains,
+            &job.record,
+            &both,
+        );
         parameters.matched = Some(both.matched);
         parameters.match_with_members = both.with.as_ref().map(|with| with.matched);
         (parameters.paper_procedure, parameters.table_1) = (paper, recovered);
@@ -120,8 +125,10 @@ impl RigidRun {
         let sap2000 = parameters.members().is_none();
         let alone = alone(parameters);
         let mut facts = alone.taken.facts.clone();
-        // a tendon holds the body down for longer than Housner's
-        let first = self.job.rocking.uplifts.first().filter(|_| self.case.members.tendon.is_none());
+        // a tendon holds the body down for longer than Housner's, and feet that slide do
+        let members = &self.case.members;
+        let own = members.tendon.is_some() || members.friction.is_some();
+        let first = self.job.rocking.uplifts.first().filter(|_| !own);
         facts.extend(first.map(|uplift| super::first_lift(uplift.time)));
         Run {
             taken: Taken {
@@ -133,6 +140,7 @@ impl RigidRun {
                 ..taken(&self.case.structure, self.case.restitution, &self.case.members)
             },
             friction_needed: Some(self.report.friction_needed()),
+            friction_in_landings: self.report.needs_friction_to_land(),
             sap2000,
             sections,
             ..alone
@@ -159,7 +167,7 @@ impl RigidRun {
             .is_some_and(|a| a.reached && a.measured.synthetic_median.is_some());
         if let Some(verdict) = &parameters.verdict {
             let (structure, record) = (&self.case.structure, &self.job.record);
-            all.extend(reference::verdict(structure, record, &self.both, verdict));
+            all.extend(reference::verdict(structure, record, &self.both, (verdict, &self.report)));
             all.extend(reference::ill_conditioned(&self.report, verdict, judged));
         }
         let peaks = parameters.peaks.map(|pair| pair.with_members.unwrap_or(pair.reference));
@@ -191,12 +199,16 @@ impl RigidRun {
     /// What the steps of its deck tell of how far its motion can be foretold; up to when that is
     /// (s), if not to its end.
     fn foretold(&self) -> (Option<Finding>, Option<f64>) {
-        let Self { case, job, report, parameters, .. } = self;
-        let of = |finding: &Finding| finding.predictable_to();
+        let Self { case, job, both, report, parameters, .. } = self;
+        // his pivot is that of a body without members
+        let own =
+            |f: &Finding| both.with.is_none() || !matches!(f, Finding::PivotLeavesGround { .. });
+        let of = |finding: &Finding| finding.predictable_to().filter(|_| own(finding));
         let verdict = parameters.verdict.as_ref();
         let conditioned = verdict.and_then(|v| reference::ill_conditioned(report, v, false));
         let until = report.findings().iter().chain(&conditioned).filter_map(of).reduce(f64::min);
-        let judged = judged::rigid(&case.structure, parameters, &job.record, until);
+        let well = report.well_conditioned();
+        let judged = judged::rigid(&case.structure, parameters, &job.record, (well, until));
         let until = judged.iter().filter_map(of).chain(until).reduce(f64::min);
         (judged, until)
     }
@@ -302,6 +314,7 @@ fn alone(parameters: Parameters) -> Run {
         reference: super::HOUSNER,
         peaks: parameters.peaks,
         friction_needed: None,
+        friction_in_landings: false,
         design_forces: parameters.design_forces,
         springs_at: "each foot",
         springs: units.into(),
@@ -334,18 +347,6 @@ fn softer(
     Some(with_members(&job.body, e, &chains, &case.members, record, (&both.rocking, &both.housner)))
 }
 
-/// How far changes of the structure and the record move Housner's history.
-fn conditioning(row: &ConditioningRow) -> Option<String> {
-    let pair = |moved: Option<[f64; 2]>| moved.map(|moved| moved.map(percent).join(" and "));
-    Some(format!(
-        "Changes of 0.1 % and 1 % move Housner's history by {} (width), {} (scale of the record), \
-            {} (restitution), as NRMSE.",
-        pair(row.moved_by_width)?,
-        pair(row.moved_by_scale)?,
-        pair(row.moved_by_restitution)?
-    ))
-}
-
 /// What the report has of springs, with or without a record.
 fn sections(p: &Parameters) -> Vec<Section> {
     let mut all = vec![Section {
@@ -372,7 +373,7 @@ fn sections(p: &Parameters) -> Vec<Section> {
         all.push(Section {
             id: "comparison",
             title: format!("The first {} s of the record", significant(m.duration_s, 4)),
-            text: p.conditioning.iter().filter_map(conditioning).collect(),
+            text: p.conditioning.iter().filter_map(limits::conditioning).collect(),
             table: Some(tables::comparison(p)),
             ..Section::default()
         });

@@ -8,7 +8,7 @@ mod warnings;
 
 use super::{
     Run, STEADY, Section, Table, Unit,
-    displacements::{DIFFERENCE, FRICTION, LARGEST, PART},
+    displacements::{FRICTION, LARGEST, PART},
     peak_table,
 };
 use files::message::{shortened, significant};
@@ -40,8 +40,8 @@ struct Crowding {
     settings: usize,
     /// Whether impacts, and the friction needed, stand in the table of peaks.
     all_peaks: bool,
-    /// Whether what was given, doubts of it and what was assumed have one line each, forces that
-    /// are withheld stand in one, no other has a line of its own, and displacements have no parts.
+    /// Whether the record and what was assumed have one line each, forces that are withheld stand
+    /// in one, and displacements have no parts.
     tight: bool,
 }
 
@@ -110,8 +110,6 @@ pub const ETABS_SHEET: &str = "etabs_by_hand.txt";
 const UNIT: &str = "foot - k1 (gap) - m2 - k2 and c - ground";
 /// Letters of a path in a command.
 const LONGEST_PATH: usize = 58;
-/// Lines that a doubt of what was given may take.
-const LONGEST_CHECK: usize = 2;
 /// The row of the table of peaks that gives way to warnings.
 const IMPACTS: &str = "impacts";
 /// What a doubt of what was given begins with.
@@ -207,13 +205,10 @@ fn answer(run: &Run, written: &Written, crowding: Crowding) -> Vec<String> {
         lines.push(String::new());
     }
     at_most(crowding.sentence, &mut lines, "", &run.verdict());
-    let peaks = peak_table(run).map(|table| of_screen(table, crowding).lines());
-    lines.extend(peaks.into_iter().flatten());
+    lines.extend(peak_table(run).into_iter().flat_map(|table| of_screen(table, crowding)));
     lines.extend(forces::lines(run, crowding.tight));
     springs(run, &mut lines);
-    if !crowding.tight {
-        lines.push(format!("  {}, each direction: {UNIT}", run.springs_at));
-    }
+    lines.push(format!("  {}, each direction: {UNIT}", run.springs_at));
     if let Some(accuracy) = &run.accuracy {
         let parts = accuracy.short(crowding.measured, run.unjudged());
         // as many parts as there is room for
@@ -232,24 +227,26 @@ fn answer(run: &Run, written: &Written, crowding: Crowding) -> Vec<String> {
     lines
 }
 
-/// The table of peaks without what the report alone has; with the friction needed beside the
-/// impacts, which have no difference, if there is room for both.
-fn of_screen(mut table: Table, Crowding { all_peaks, tight, .. }: Crowding) -> Table {
+/// The table of peaks without what the report alone has; the friction needed stands behind the
+/// impacts, outside of the columns, if there is room for both.
+fn of_screen(mut table: Table, Crowding { all_peaks, tight, .. }: Crowding) -> Vec<String> {
     let friction = table.rows.pop_if(|row| row.first().is_some_and(|name| name == FRICTION));
-    let last = table.rows.last_mut().filter(|row| row[0].starts_with(IMPACTS));
-    match (friction, last) {
-        (Some(friction), Some(last)) if table.head.len() > DIFFERENCE => {
-            last[DIFFERENCE] = friction[..2].join(" ");
-        }
-        (friction, _) => table.rows.extend(friction),
-    }
     let left_out = |name: &str| {
         name.starts_with(LARGEST)
             || (!all_peaks && name.starts_with(IMPACTS))
             || (tight && name.starts_with(PART))
     };
+    let counted = table.rows.iter().any(|row| row[0].starts_with(IMPACTS));
     table.rows.retain(|row| !left_out(&row[0]));
-    table
+    let mut lines = table.lines();
+    let Some(friction) = friction.filter(|_| all_peaks || !counted) else { return lines };
+    let friction = friction[..2].join(": ");
+    let room = |line: &&mut String| line.chars().count() + 3 + friction.chars().count() <= WIDTH;
+    match lines.last_mut().filter(|line| line.starts_with(IMPACTS)).filter(room) {
+        Some(line) => *line += &format!(";  {friction}"),
+        None => lines.push(friction),
+    }
+    lines
 }
 
 fn taken(run: &Run, written: &Written, crowding: Crowding, lines: &mut Vec<String>) {
@@ -263,13 +260,14 @@ fn taken(run: &Run, written: &Written, crowding: Crowding, lines: &mut Vec<Strin
     let at = if fact(STEADY).is_some() { "at a steady" } else { "beyond" };
     let lifts = fact("lifts")
         .map_or(String::new(), |value| format!("; lifts {at} {value}{vertical}{first}"));
-    at_most(two, lines, "", &format!("{}{lifts}", run.taken.structure));
+    // what lifts it is an answer: it is not cut
+    wrap(lines, "", &format!("{}{lifts}", run.taken.structure));
     if let Some(record) = &run.taken.short_record {
         let name = if record.chars().count() > WIDTH { "record " } else { "" };
         at_most(two, lines, "", record.strip_prefix(name).unwrap_or(record));
     }
     for filed in run.remarks().filter(|filed| is_doubt(filed)) {
-        lines.extend(Warned::of(CHECK, filed).in_lines(LONGEST_CHECK.min(two)));
+        lines.extend(Warned::of(CHECK, filed).in_lines(LINES));
     }
     let all: Vec<String> =
         run.taken.assumed.iter().map(|a| format!("{} ({})", a.what, a.key)).collect();

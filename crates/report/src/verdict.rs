@@ -1,8 +1,8 @@
 //! What a run was asked, in one sentence.
 
-use crate::{HOUSNER, Run, predictable_to, sentence};
+use crate::{FiledParameters, HOUSNER, Run, predictable_to, sentence};
 use files::message::{quantity, significant};
-use results::{DeckEnd, Finding, FindingModel, Weight, apart_words};
+use results::{DeckEnd, Finding, FindingModel, PeakPair, Weight, apart_words};
 
 /// Share of the largest displacement below which that of a part tells nothing.
 const HARDLY: f64 = 0.02;
@@ -21,9 +21,14 @@ impl Run {
             };
         };
         if let Some(without) = self.without_members() {
+            let with = match self.members_words() {
+                "with members" => "with its members",
+                with => with,
+            };
             return sentence(&format!(
-                "with its members {}{}{}{without}",
+                "{with} {}{}{}{}{without}",
                 told.message,
+                self.left_aside(),
                 self.not_computed(),
                 self.foretold()
             ));
@@ -37,14 +42,50 @@ impl Run {
         ))
     }
 
+    /// What the answer of a rigid body with members is with: friction goes alone.
+    pub(crate) fn members_words(&self) -> &'static str {
+        match &self.parameters {
+            FiledParameters::Rigid(parameters) if parameters.members().friction.is_some() => {
+                "with friction"
+            }
+            _ => "with members",
+        }
+    }
+
     /// What Housner's body does without the members that the structure has.
     fn without_members(&self) -> Option<String> {
         self.findings.iter().find_map(|filed| match &filed.finding {
-            Finding::MembersBeside { without } => {
-                Some(format!("; without members, Housner's body {without}"))
+            Finding::MembersBeside { without, without_to_s } => {
+                let held = match self.members_words() {
+                    "with friction" => "without sliding",
+                    _ => "without members",
+                };
+                let until = without_to_s.map_or(String::new(), |time| {
+                    format!(" (predictable to {} s)", significant(time, 4))
+                });
+                Some(format!("; {held}, Housner's body {without}{until}"))
             }
             _ => None,
         })
+    }
+
+    /// Up to when the motion of Housner's body can be foretold (s), where it has no members and the
+    /// structure has.
+    pub(crate) fn without_to(&self) -> Option<f64> {
+        self.findings.iter().find_map(|filed| match filed.finding {
+            Finding::MembersBeside { without_to_s, .. } => without_to_s,
+            _ => None,
+        })
+    }
+
+    /// How far beside its place a body that rocks and slips comes to rest.
+    fn left_aside(&self) -> String {
+        let left = self.findings.iter().find_map(|filed| match filed.finding {
+            Finding::LeftAside { left_m } => Some(left_m),
+            _ => None,
+        });
+        let words = |left| format!("; it slips as well, and ends {} aside", quantity(left, "m"));
+        left.map_or(String::new(), words)
     }
 
     /// Where the feet end, if not where they began.
@@ -84,8 +125,7 @@ impl Run {
             ),
         });
         let stands = any(|f| matches!(f, Finding::Stands { .. }));
-        // how a small change moves it is known of Housner's body alone
-        match stands && !in_part && alone.is_empty() && !self.has_members() {
+        match stands && !in_part && alone.is_empty() {
             true => "; predictable".into(),
             false => alone,
         }
@@ -99,10 +139,14 @@ impl Run {
             _ => false,
         });
         let later = if later { "; the largest rotation is not" } else { "" };
-        let then = self.peaks.and_then(|pair| Some((pair.foretold?, pair.reference)));
-        let then = then
-            .filter(|(part, all)| part.top_displacement_m[0] < all.top_displacement_m)
-            .map(|(part, all)| (part.top_displacement_m[0], all.top_displacement_m));
+        let top = |pair: PeakPair| {
+            let part = pair.foretold?;
+            Some(match pair.with_members {
+                Some(with) => (part.with_members_top_m?, with.top_displacement_m),
+                None => (part.top_displacement_m[0], pair.reference.top_displacement_m),
+            })
+        };
+        let then = self.peaks.and_then(top).filter(|(part, all)| part < all);
         let then = then.map_or(String::new(), |(top, largest)| match top < HARDLY * largest {
             // a change that hardly shows in the whole may be all of it
             true => " (it hardly moves until then)".into(),
@@ -127,7 +171,7 @@ impl Run {
                 FindingModel::Reference if self.reference == HOUSNER => "by Housner's equation",
                 FindingModel::Reference => "on rigid ground",
                 FindingModel::Springs => "on springs",
-                FindingModel::Members => "with members",
+                FindingModel::Members => self.members_words(),
             };
             format!("; NOT computed {of} after {} s", significant(time_s, 4))
         };

@@ -290,6 +290,9 @@ pub enum Finding {
         /// What Housner's body does without members.
         #[serde(default)]
         without: String,
+        /// Up to when that can be foretold (s), if not to its end.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        without_to_s: Option<f64>,
     },
     /// Feet that landed elsewhere than they stood leave the structure bent, held by friction.
     FeetApart {
@@ -355,6 +358,12 @@ pub struct FiledFinding {
 }
 
 impl FiledFinding {
+    /// The same of an elastic structure.
+    #[must_use]
+    pub fn of_elastic(self) -> Self {
+        Self { remedy: self.finding.remedy_of_elastic(), ..self }
+    }
+
     /// Message and remedy.
     pub fn line(&self) -> String {
         match &self.remedy {

@@ -18,5 +18,9 @@ pub use peaks::{ForetoldPeaks, PartsOfTop, PeakPair, PeakTimes, Peaks};
 
 /// Up to when a motion can be foretold (s), if that is not all of it.
 pub fn predictable_to(findings: &[FiledFinding]) -> Option<f64> {
-    findings.iter().filter_map(|filed| filed.finding.predictable_to()).reduce(f64::min)
+    // Housner's pivot is that of a body without members
+    let beside = findings.iter().any(|f| matches!(f.finding, Finding::MembersBeside { .. }));
+    let own =
+        |f: &&FiledFinding| !(beside && matches!(f.finding, Finding::PivotLeavesGround { .. }));
+    findings.iter().filter(own).filter_map(|f| f.finding.predictable_to()).reduce(f64::min)
 }

@@ -112,6 +112,9 @@ pub struct ForetoldPeaks {
     pub top_displacement_m: [f64; 2],
     /// Of a corner (m).
     pub uplift_m: [f64; 2],
+    /// Of the top on springs, with dampers, tendon or friction (m).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub with_members_top_m: Option<f64>,
 }
 
 impl PeakPair {
@@ -120,7 +123,9 @@ impl PeakPair {
     pub fn foretold(self, until_s: f64, part: &Self) -> Self {
         let both = |of: fn(&Peaks) -> f64| [of(&part.reference), of(&part.springs)];
         let (top_displacement_m, uplift_m) = (both(|p| p.top_displacement_m), both(|p| p.uplift_m));
-        Self { foretold: Some(ForetoldPeaks { until_s, top_displacement_m, uplift_m }), ..self }
+        let with_members_top_m = part.with_members.map(|peaks| peaks.top_displacement_m);
+        let part = ForetoldPeaks { until_s, top_displacement_m, uplift_m, with_members_top_m };
+        Self { foretold: Some(part), ..self }
     }
 }
 

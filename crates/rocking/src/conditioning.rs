@@ -142,6 +142,19 @@ const MOVED_BY_PEAK: f64 = 0.05;
 /// Of a history that hardly lifts: rotation over alpha whose displacement counts as the largest.
 const LEAST_PEAK: f64 = 0.02;
 
+/// Up to when no changed history leaves `u`, displacements of a body's centre of mass `dt` apart
+/// (s), by a twentieth of the largest so far (s), as in [`Changes::holds_to_s`]; none: to its end.
+pub fn holds_to(body: &Body<f64>, dt: f64, u: &[f64], changed: &[Vec<f64>]) -> Option<f64> {
+    let mut largest = body.u(LEAST_PEAK * body.alpha());
+    let first = (0..u.len()).find(|&i| {
+        largest = largest.max(u[i].abs());
+        let most = MOVED_BY_PEAK * largest;
+        let apart = |other: &Vec<f64>| other.get(i).is_none_or(|x| (x - u[i]).abs() > most);
+        changed.iter().any(apart)
+    });
+    first.map(|i| i.saturating_sub(1) as f64 * dt)
+}
+
 /// Twelve histories beside the unchanged one, all in lock-step.
 pub fn changes(body: &Body<f64>, dt: f64, accel: &[f64], options: &RockingOptions<f64>) -> Changes {
     let restitution = options.restitution.unwrap_or_else(|| body.restitution());
@@ -170,13 +183,6 @@ pub fn changes(body: &Body<f64>, dt: f64, accel: &[f64], options: &RockingOption
         let samples = samples_until(until, dt).min(u.len());
         moved(&displacements[i], &u[..samples])
     };
-    let mut largest = body.u(LEAST_PEAK * body.alpha());
-    let first = (0..u.len()).find(|&i| {
-        largest = largest.max(u[i].abs());
-        let most = MOVED_BY_PEAK * largest;
-        let apart = |other: &Vec<f64>| other.get(i).is_none_or(|x| (x - u[i]).abs() > most);
-        displacements[1..=6].iter().any(apart)
-    });
     let overturns =
         |rocking: &Rocking<f64>| matches!(rocking.outcome, RockingOutcome::Overturned { .. });
     // history 1 + 6 k + 3 j + what: size k, sign j
@@ -188,7 +194,7 @@ pub fn changes(body: &Body<f64>, dt: f64, accel: &[f64], options: &RockingOption
         scale: largest(1),
         restitution: largest(2),
         overturning: histories.iter().any(|changed| overturns(changed) != overturns(&histories[0])),
-        holds_to_s: first.map(|i| i.saturating_sub(1) as f64 * dt),
+        holds_to_s: holds_to(body, dt, u, &displacements[1..=6]),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::super::{
     AccuracyOn, AccuracyReport, FiledParameters, ProgramReport, Run, STEADY, Taken, Unit,
-    accuracy::THIS_RECORD, doubts, filed,
+    accuracy::THIS_RECORD, doubts, filed_of_elastic as filed,
 };
 use super::title;
 use cases::{ElasticCase, Yardstick};
@@ -102,6 +102,7 @@ pub(super) fn alone(parameters: ElasticParameters) -> Run {
         reference: "rigid ground",
         peaks: parameters.peaks,
         friction_needed: None,
+        friction_in_landings: false,
         design_forces: parameters.design_forces,
         springs_at: "each corner",
         springs: corner_units(&parameters.springs),

@@ -38,7 +38,8 @@ impl RunAtOnce {
         let parameters = Parameters::new(structure, springs);
         let both = both(&body, e, &parameters.chains(), &case.members, &record);
         let report = HousnerReport::new(&body, e, &record, &both.rocking, friction)
-            .with_members(&body, &record, &both);
+            .with_members(&body, &record, &both)
+            .with_conditioning(&body, &parameters.chains(), &record, &both);
         let verdict = both.verdict(&body, record.dt, &report.conditioning);
         let mut findings: Vec<Finding> =
             reference::all(&structure, &record, &both, &report, &verdict);
@@ -49,7 +50,11 @@ impl RunAtOnce {
             findings: filed(findings),
             ..parameters
         };
-        let mut run = Run { friction_needed: Some(report.friction_needed()), ..alone(parameters) };
+        let mut run = Run {
+            friction_needed: Some(report.friction_needed()),
+            friction_in_landings: report.needs_friction_to_land(),
+            ..alone(parameters)
+        };
         run.taken = crate::Taken {
             record: Some(case.excitation.line()),
             ..taken(&structure, e, &case.members)

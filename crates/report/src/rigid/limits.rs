@@ -1,7 +1,8 @@
 //! What the springs of a rigid body cannot do.
 
 use cases::Yardstick;
-use parameters::Parameters;
+use files::message::percent;
+use parameters::{ConditioningRow, Parameters};
 use results::Finding;
 use springs::landing_simulation::{ATTAINABLE, LEANS, differs_from_housner};
 
@@ -52,4 +53,16 @@ pub(super) fn springs_findings(parameters: &Parameters) -> Vec<Finding> {
         });
     }
     all
+}
+
+/// How far changes of the structure and the record move Housner's history.
+pub(super) fn conditioning(row: &ConditioningRow) -> Option<String> {
+    let pair = |moved: Option<[f64; 2]>| moved.map(|moved| moved.map(percent).join(" and "));
+    Some(format!(
+        "Changes of 0.1 % and 1 % move Housner's history by {} (width), {} (scale of the record), \
+            {} (restitution), as NRMSE.",
+        pair(row.moved_by_width)?,
+        pair(row.moved_by_scale)?,
+        pair(row.moved_by_restitution)?
+    ))
 }

@@ -40,11 +40,18 @@ fn lifts(structure: &Structure, members: &Members) -> (&'static str, String) {
         format!("{} g", significant(reference::uplift_g(structure, members), 4))
     };
     let without = g(&Members::default());
+    let slope = reference::uplift_g(structure, &Members::default());
     match members.tendon {
         Some(_) => {
             ("lifts at g tan(alpha) (1 + T/W)", format!("{}, without tendon {without}", g(members)))
         }
-        None => ("lifts at g tan alpha", without),
+        None => match members.friction.filter(|friction| friction.coefficient < slope) {
+            Some(friction) => {
+                let slides = significant(friction.coefficient, 4);
+                ("lifts at g tan alpha", format!("{without}, but slides from {slides} g"))
+            }
+            None => ("lifts at g tan alpha", without),
+        },
     }
 }
 
@@ -52,7 +59,7 @@ fn lifts(structure: &Structure, members: &Members) -> (&'static str, String) {
 mod tests {
     use super::*;
     use rocking::{
-        members::{Damper, Tendon},
+        members::{Damper, Friction, Tendon},
         scalar::GRAVITY,
     };
 
@@ -66,6 +73,14 @@ mod tests {
         assert!((reference::uplift_g(&wall, &tied) - by_hand).abs() < 1e-12);
         let (_, told) = lifts(&wall, &tied);
         assert_eq!(told, "0.9867 g, without tendon 0.6667 g");
+        // friction below b/h gives way before
+        let on = |coefficient| Members {
+            friction: Some(Friction { coefficient }),
+            ..Members::default()
+        };
+        let statue = Structure::block(4.2, 1.1, 900.0).unwrap();
+        assert_eq!(lifts(&statue, &on(0.22)).1, "0.2619 g, but slides from 0.22 g");
+        assert_eq!(lifts(&statue, &on(0.3)).1, "0.2619 g");
         let damped = Members { damper: Some(Damper { c: 1e6 }), ..Members::default() };
         assert_eq!(lifts(&wall, &damped).1, "0.6667 g");
     }

@@ -73,7 +73,7 @@ pub(super) fn lines(run: &Run, tight: bool) -> Vec<String> {
         force.held.is_some() || (force.together.is_some() && !fits(Told::Axial))
     });
     let odd = all.len() % 2 == 1;
-    let lone = usize::from(odd || (more && !tight && !fits(Told::Both)));
+    let lone = usize::from(odd || (more && !fits(Told::Both)));
     let first = |told: Told| {
         cells(told).into_iter().take(lone).map(|cell| format!("  {}", cell.join("  ")))
     };

@@ -52,7 +52,7 @@ pub(super) struct Warned {
     name: &'static str,
     message: String,
     remedy: String,
-    /// Whether its numbers are not to be cut.
+    /// Whether it is not to be cut: it is told in all its lines, or the report's line counts it.
     whole: bool,
 }
 
@@ -63,8 +63,13 @@ impl Warned {
             name,
             message: sentence(&filed.message),
             remedy: filed.remedy.as_ref().map_or(String::new(), |r| format!(" {}", sentence(r))),
-            whole: matches!(filed.finding, Finding::VerticalLeftOut { .. }),
+            whole: true,
         }
+    }
+
+    /// Lines that it may take.
+    pub(super) fn most(&self) -> usize {
+        if self.whole { LINES } else { LONGEST_WARNING }
     }
 
     /// Lines that it needs.
@@ -118,7 +123,7 @@ pub(super) fn warnings(run: &Run, of_decks: &[String]) -> Vec<Warned> {
         let remedy =
             if remedy.is_empty() { String::new() } else { format!(" {}", sentence(remedy)) };
         // a file's name stays as it is
-        Warned { name: WARNING, message: format!("{message}."), remedy, whole: false }
+        Warned { name: WARNING, message: format!("{message}."), remedy, whole: true }
     };
     let grave = |filed: &FiledFinding| {
         let key = (std::cmp::Reverse(filed.weight), urgency(&filed.finding));
@@ -133,7 +138,7 @@ pub(super) fn warnings(run: &Run, of_decks: &[String]) -> Vec<Warned> {
 
 /// Lines that a warning wants.
 pub(super) fn warning_lines(warning: &Warned) -> usize {
-    warning.in_lines(LONGEST_WARNING).len()
+    warning.in_lines(warning.most()).len()
 }
 
 /// Warnings in the room that is left, the last line for the report: each has one line before any
@@ -141,24 +146,27 @@ pub(super) fn warning_lines(warning: &Warned) -> usize {
 pub(super) fn tell(warnings: &[Warned], lines: &mut Vec<String>) -> usize {
     let room = (LINES - 1).saturating_sub(lines.len());
     let mut left = room;
-    // what each needs, as far as there is room: those whose numbers are not to be cut need all
+    // what each needs, as far as there is room: those that are not to be cut need all
     let needs = |warning: &Warned| {
-        let least = warning.least_lines().min(left);
+        let least = match warning.least_lines() {
+            all if warning.whole && all > left => 0,
+            some => some.min(left),
+        };
         left -= least;
-        (least > 0).then_some(least)
+        least
     };
-    let mut given: Vec<usize> = warnings.iter().map_while(needs).collect();
-    let told = given.len();
+    let mut given: Vec<usize> = warnings.iter().map(needs).collect();
+    let told = given.iter().filter(|lines| **lines > 0).count();
     left = room - given.iter().sum::<usize>();
     for most in 2..=LONGEST_WARNING {
         for (given, warning) in given.iter_mut().zip(warnings) {
-            if left > 0 && *given < most && warning_lines(warning) >= most {
+            if left > 0 && (1..most).contains(given) && warning_lines(warning) >= most {
                 *given += 1;
                 left -= 1;
             }
         }
     }
-    for (most, warning) in given.into_iter().zip(warnings) {
+    for (most, warning) in given.into_iter().zip(warnings).filter(|(most, _)| *most > 0) {
         lines.extend(warning.in_lines(most));
     }
     warnings.len() - told

@@ -1,7 +1,15 @@
 //! What to do about findings, and what they mean.
 
-use super::{Ending, Finding};
+use super::{Ending, Finding, message::USUAL_FRICTION};
 use dynamics::effort::CutBy;
+
+/// What to do about a landing that bounces: slender bodies lack friction, stocky ones do not rock.
+fn of_landing(restitution: f64, friction_needed: f64) -> &'static str {
+    match restitution > 0.0 && friction_needed <= USUAL_FRICTION {
+        true => "--friction sets what the ground offers",
+        false => "check height and width; rely on tests for such a body",
+    }
+}
 
 impl Finding {
     /// What to do, if there is anything to do.
@@ -72,7 +80,9 @@ impl Finding {
             Self::Sliding { .. } => {
                 "give a shear key: feet do not slide here; --friction sets what the ground offers"
             }
-            Self::TooStocky { .. } => "check height and width; rely on tests for such a body",
+            Self::TooStocky { restitution, friction_needed, .. } => {
+                of_landing(*restitution, *friction_needed)
+            }
             Self::HistoryEndsEarly { .. } => {
                 "take stiffer springs, or rotational_inertia_kgm2 above 0.002 m R^2"
             }
@@ -80,6 +90,22 @@ impl Finding {
             Self::SmallestSteps { .. } => "compare with OpenSees: tune verify",
             Self::VerticalLeftOut { .. } => "take it: --vertical auto",
             Self::Doubt { remedy, .. } => return Some(remedy.clone()),
+        };
+        Some(text.into())
+    }
+
+    /// What to do about an elastic structure's, which `tune validate` does not take.
+    pub(crate) fn remedy_of_elastic(&self) -> Option<String> {
+        let text = match self {
+            Self::ModelsDisagree { .. } => "vary the scale by 1 %, and judge by several records",
+            Self::AccuracyMissed { capped: false, another_restitution: false, .. }
+            | Self::PeaksMissed { capped: false, another_restitution: false, .. } => {
+                "ask for less, or judge the springs by several records"
+            }
+            Self::AccuracyNotMeasured | Self::HistoriesUnfinished { left_out: false, .. } => {
+                "judge the springs on records of your own"
+            }
+            _ => return self.remedy(),
         };
         Some(text.into())
     }

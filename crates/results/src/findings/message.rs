@@ -4,6 +4,8 @@ mod forces;
 mod regime;
 mod taken;
 
+pub(super) use regime::USUAL_FRICTION;
+
 use super::{Finding, FindingModel, ForceName, PeakChange};
 use dynamics::effort::CutBy;
 use files::message::{percent, quantity, significant};

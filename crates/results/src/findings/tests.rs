@@ -147,3 +147,44 @@ fn what_moves_an_ill_conditioned_motion_the_most_is_told() {
     // of files that were written before it was told
     assert_eq!(of(None).message(), "ill-conditioned: 0.1 % of width moves it by 0.97 %");
 }
+
+/// An A-frame 35 m by 7 m that needs mu = b/h = 0.1 to land is slender: what is short is the
+/// friction given. A block half as high again as wide needs more than ground offers.
+#[test]
+fn too_little_friction_is_told_of_the_friction_and_a_stocky_body_of_the_body() {
+    let of = |restitution, friction_needed, available| Finding::TooStocky {
+        restitution,
+        friction_needed,
+        available,
+    };
+    let slender = of(0.98, 0.1, 0.08);
+    assert_eq!(
+        slender.message(),
+        "the friction given is too little to land without bouncing: 0.1 is needed, 0.08 is \
+            available"
+    );
+    assert_eq!(slender.remedy().unwrap(), "--friction sets what the ground offers");
+    for stocky in [of(0.05, 0.6, 0.5), of(-0.1, 0.3, 0.5)] {
+        assert!(stocky.message().starts_with("the body is too stocky"), "{}", stocky.message());
+        assert!(stocky.remedy().unwrap().starts_with("check height"));
+    }
+}
+
+/// `tune validate` takes rigid bodies alone: of an elastic structure no remedy names it.
+#[test]
+fn no_remedy_of_an_elastic_structure_names_what_takes_rigid_bodies_alone() {
+    let missed = |capped| Finding::PeaksMissed { asked: 0.01, capped, another_restitution: false };
+    let all = [
+        Finding::ModelsDisagree { reference: "stands".into(), springs: "overturns".into() },
+        missed(false),
+        missed(true),
+        Finding::AccuracyMissed { asked: 0.01, capped: false, another_restitution: false },
+        Finding::AccuracyNotMeasured,
+        Finding::HistoriesUnfinished { histories: 2, left_out: false },
+        Finding::HistoriesUnfinished { histories: 2, left_out: true },
+    ];
+    for finding in all {
+        let remedy = FiledFinding::from(finding).of_elastic().remedy.unwrap();
+        assert!(!remedy.contains("tune validate"), "{remedy}");
+    }
+}

@@ -347,3 +347,54 @@ fn tendon_and_dampers_have_forces_to_design_for() {
     assert!(damper.holds, "{damper:?}");
     assert!((damper.value.unwrap().abs() / push - 1.0).abs() < 0.05, "{damper:?} {push}");
 }
+
+/// Of a slender block that a tendon and dampers hold, the sentence's top up to when its motion can
+/// be foretold is that of the body with them, read off its own history: u + (H - h) sin theta.
+#[test]
+fn what_can_be_foretold_of_a_body_with_members_is_told_of_that_body() {
+    let block = "[structure]\nkind = \"block\"\nheight_m = 9.0\nwidth_m = 2.2\nmass_kg = 110e3\n\
+                 [tendon]\nstiffness_n_per_m = 2e6\npretension_n = 1e5\n\
+                 [damper]\nc_ns_per_m = 2e5\n";
+    let run = run_within((4e4, 2e-3), 1.0, Some(block));
+    let said = run.said(run.parameters.clone());
+    let motion = &run.both.with.as_ref().unwrap().history.motion;
+    let top = |until: f64| {
+        let samples = (until / run.job.record.dt).round() as usize + 1;
+        let all = motion.u.iter().zip(&motion.theta).take(samples);
+        all.map(|(u, theta)| (u + 9.0 * theta.sin()).abs()).fold(0.0, f64::max)
+    };
+    let verdict = said.verdict();
+    assert!(verdict.starts_with("With its members it rocks and stands"), "{verdict}");
+    let own = verdict.split("; without members").next().unwrap();
+    match report::predictable_to(&said.findings) {
+        Some(until) if top(until) < top(1e6) => {
+            let words = format!("(top {})", files::message::quantity(top(until), "m"));
+            assert!(own.contains("predictable to ") && own.contains(&words), "{verdict} {words}");
+        }
+        Some(_) => assert!(own.contains("predictable to ") && !own.contains("(top "), "{verdict}"),
+        None => assert!(own.ends_with("; predictable"), "{verdict}"),
+    }
+    let screen = check_screen(&run, "out");
+    assert!(screen.contains("lifts beyond 0.1335 g, without tendon 0.1222 g"), "{screen}");
+    assert!(screen.contains(", axial "), "{screen}");
+}
+
+/// A body with friction alone is spoken of with friction, and where it ends beside its place is on
+/// the screen; the friction needed stands outside of the columns.
+#[test]
+fn a_body_with_friction_is_told_with_friction() {
+    let block = "[structure]\nkind = \"block\"\ntotal_height_m = 2.0\nwidth_m = 0.5\n\
+                 mass_kg = 1000.0\n[friction]\ncoefficient = 0.28\n";
+    let run = run_within((4e4, 2e-3), 1.0, Some(block));
+    let said = run.said(run.parameters.clone());
+    let written = Written { folder: "out", report: true, decks: true, left_out: &[] };
+    let text = screen(&said, &written);
+    assert!(text.contains("with friction") && !text.contains("ith its members"), "{text}");
+    assert!(!text.contains("with members"), "{text}");
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("friction needed: "), "{text}");
+    let left = run.both.with.as_ref().unwrap().history.motion.u.last().unwrap().abs();
+    let aside = said.findings.iter().any(|f| matches!(f.finding, Finding::LeftAside { .. }));
+    let told = format!("ends {} aside", files::message::quantity(left, "m"));
+    assert_eq!(words.contains(&told), aside, "{text} {told}");
+}

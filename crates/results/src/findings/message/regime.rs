@@ -7,6 +7,9 @@ use files::message::{percent, significant};
 /// Share of what a footing bears at rest below which its load is said where friction is.
 const LIGHT: f64 = 0.5;
 
+/// Friction that ground commonly offers: a body that needs more to land is stocky.
+pub(in crate::findings) const USUAL_FRICTION: f64 = 0.5;
+
 impl Finding {
     /// Whether the models hold.
     pub(super) fn regime(&self) -> Option<String> {
@@ -28,6 +31,17 @@ impl Finding {
                 format!(
                     "free flight: the ground would have to pull the pivot down at t = {}",
                     s(*time_s)
+                )
+            }
+            // given enough of it a slender body lands as Housner says
+            Self::TooStocky { restitution, friction_needed, available }
+                if *restitution > 0.0 && *friction_needed <= USUAL_FRICTION =>
+            {
+                format!(
+                    "the friction given is too little to land without bouncing: {} is needed, {} \
+                        is available",
+                    significant(*friction_needed, 3),
+                    significant(*available, 3)
                 )
             }
             Self::TooStocky { restitution, friction_needed, .. } => format!(
