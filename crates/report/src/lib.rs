@@ -250,7 +250,7 @@ pub fn filed(findings: impl IntoIterator<Item = Finding>) -> Vec<FiledFinding> {
 }
 
 /// The same of an elastic structure.
-pub(crate) fn filed_of_elastic(findings: impl IntoIterator<Item = Finding>) -> Vec<FiledFinding> {
+pub fn filed_of_elastic(findings: impl IntoIterator<Item = Finding>) -> Vec<FiledFinding> {
     filed_as(|finding| FiledFinding::from(finding).of_elastic(), findings)
 }
 

@@ -27,7 +27,7 @@ use parameters::{
 use report::{
     Run,
     elastic::{ElasticParts, design_forces, largest, title},
-    filed,
+    filed_of_elastic,
     markdown::markdown,
     page::page,
     predictable_to,
@@ -88,7 +88,7 @@ pub fn springs_alone(
         ElasticAssessment { judged_by, accuracy, reached: tuned.reached, measured: tuned.measured };
     ElasticParameters {
         assessment: Some(assessment),
-        findings: filed(tuned.findings(asked)),
+        findings: filed_of_elastic(tuned.findings(asked)),
         program: tuned.program.as_ref().map(|program| program_row(assembled, program)),
         ..ElasticParameters::new(assembled.structure, tuned.springs.omega_n_hz, &corners)
             .with_members(assembled.members)
@@ -211,12 +211,12 @@ impl ElasticRun {
         run.parameters.design_forces =
             Some(design_forces(&run.assembled.structure, &run.answer.design));
         let (findings, asked) = (run.parts().findings(&run.parameters), run.case.program.is_some());
-        let on_record = run.program_on_record(&filed(findings.clone()));
+        let on_record = run.program_on_record(&filed_of_elastic(findings.clone()));
         if let Some(row) = &mut run.parameters.program {
             row.on_record = on_record;
         }
         let row = &mut run.parameters.program;
-        run.parameters.findings = filed(with_verdict(findings, row.as_mut(), asked));
+        run.parameters.findings = filed_of_elastic(with_verdict(findings, row.as_mut(), asked));
         run.parameters.peaks = Some(run.parts().foretold_peaks(&run.parameters.findings));
         let until = predictable_to(&run.parameters.findings);
         run.parameters.design_forces =
