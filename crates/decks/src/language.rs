@@ -114,7 +114,8 @@ impl Language {
         let mut text = template.to_string();
         if let Some(why) = even.and_then(EvenSteps::warning) {
             // a comment in both languages, below the line that starts Python
-            let first = if text.starts_with("#!") { text.find('\n').map_or(0, |i| i + 1) } else { 0 };
+            let first =
+                if text.starts_with("#!") { text.find('\n').map_or(0, |i| i + 1) } else { 0 };
             text.insert_str(first, &format!("# {why}.\n"));
         }
         for (name, fragment) in fragments {

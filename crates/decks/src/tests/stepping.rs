@@ -111,12 +111,8 @@ fn a_deck_that_ends_before_its_record_says_so() {
 /// Steps of 20 ms are too long for a block 2 m tall.
 #[test]
 fn springs_of_no_use_are_marked_in_every_format() {
-    let formats = [
-        DeckFormat::OpenSeesPy,
-        DeckFormat::OpenSeesTcl,
-        DeckFormat::Csv,
-        DeckFormat::Markdown,
-    ];
+    let formats =
+        [DeckFormat::OpenSeesPy, DeckFormat::OpenSeesTcl, DeckFormat::Csv, DeckFormat::Markdown];
     for (step, marked) in [(0.02, true), (1e-3, false)] {
         let parameters = for_program(ProgramName::OpenSees, step);
         for format in formats {

@@ -67,11 +67,8 @@ pub struct ElasticFixedStepDesign {
 
 impl ElasticFixedStepDesign {
     /// The first that is tried.
-    pub const RECIPE: Self = Self {
-        stance: FixedStepDesign::RECIPE.stance,
-        k: TRIED[0],
-        horizontal_over_vertical: 4.0,
-    };
+    pub const RECIPE: Self =
+        Self { stance: FixedStepDesign::RECIPE.stance, k: TRIED[0], horizontal_over_vertical: 4.0 };
 
     /// Springs for a step (s); `body` is the rigid body of the same size.
     pub fn springs(&self, standing: &Standing, step: f64, body: &Body<f64>) -> CornerSprings {
