@@ -83,18 +83,6 @@ pub fn nrmse_of<'a>(pairs: impl Iterator<Item = (&'a f64, &'a f64)>) -> f64 {
     if above == 0.0 { 0.0 } else { (above / below).sqrt() }
 }
 
-/// A share in percent, with two significant digits, at most two decimals; a dash where there is
-/// nothing to compare with.
-pub fn percent(share: f64) -> String {
-    let percent = 100.0 * share;
-    if !percent.is_finite() {
-        return "-".into();
-    }
-    let decimals =
-        if percent > 0.0 { (1.0 - percent.log10().floor()).clamp(0.0, 2.0) as usize } else { 0 };
-    format!("{percent:.decimals$} %")
-}
-
 /// An NRMSE with four decimals, or two significant digits where it is smaller; a dash where there
 /// is nothing to compare with.
 pub fn shown(nrmse: f64) -> String {

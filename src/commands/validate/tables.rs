@@ -3,8 +3,9 @@
 use std::fmt::Write;
 
 use super::{CommandError, terminal};
+use files::message::significant;
 use report::Table;
-use rocking::motion::{percent, shown};
+use rocking::motion::shown;
 use validation::{
     Confusion, GeometricMean, PREDICTABLE, Quantiles, RecordOutcome, Row, Suite, Summary,
     Validation,
@@ -25,7 +26,9 @@ fn summary(v: &Validation) -> Table {
     };
     let quantiles =
         |q: &Quantiles| several(q.count, format!("{} / {}", number(q.median), number(q.p90)));
-    let part = |x: Option<f64>| x.map_or("-".to_string(), percent);
+    let part = |x: Option<f64>| {
+        x.map_or("-".to_string(), |x| format!("{} %", significant(100.0 * x, 2)))
+    };
     let percents =
         |q: &Quantiles| several(q.count, format!("{} / {}", part(q.median), part(q.p90)));
     let overturned =
