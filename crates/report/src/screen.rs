@@ -8,7 +8,7 @@ mod warnings;
 
 use super::{
     Run, STEADY, Section, Table, Unit,
-    displacements::{FRICTION, LARGEST, PART},
+    displacements::{BENDING, DRIFT_RATIO, FRICTION, LARGEST, PART},
     peak_table,
 };
 use files::message::{shortened, significant};
@@ -41,7 +41,7 @@ struct Crowding {
     /// Whether impacts, and the friction needed, stand in the table of peaks.
     all_peaks: bool,
     /// Whether the record and what was assumed have one line each, forces that are withheld stand
-    /// in one, and displacements have no parts.
+    /// in one, and of the parts of a displacement that by bending alone is told.
     tight: bool,
 }
 
@@ -82,7 +82,7 @@ const CROWDING: [Crowding; 7] = [
     SPACIOUS,
     Crowding { empty_line: false, ..SPACIOUS },
     Crowding { assumed: 2, accuracy: 2, ..CLOSEST },
-    Crowding { assumed: 2, ..CLOSEST },
+    Crowding { accuracy: 2, ..CLOSEST },
     CLOSEST,
     Crowding { all_peaks: false, ..CLOSEST },
     Crowding { settings: 2, all_peaks: false, tight: true, ..CLOSEST },
@@ -231,10 +231,12 @@ fn answer(run: &Run, written: &Written, crowding: Crowding) -> Vec<String> {
 /// impacts, outside of the columns, if there is room for both.
 fn of_screen(mut table: Table, Crowding { all_peaks, tight, .. }: Crowding) -> Vec<String> {
     let friction = table.rows.pop_if(|row| row.first().is_some_and(|name| name == FRICTION));
+    let bends = table.rows.iter().any(|row| row[0] == BENDING);
+    let first_to_go = |name: &str| name.starts_with(PART) || (bends && name == DRIFT_RATIO);
     let left_out = |name: &str| {
         name.starts_with(LARGEST)
             || (!all_peaks && name.starts_with(IMPACTS))
-            || (tight && name.starts_with(PART))
+            || (tight && name != BENDING && first_to_go(name))
     };
     let counted = table.rows.iter().any(|row| row[0].starts_with(IMPACTS));
     table.rows.retain(|row| !left_out(&row[0]));

@@ -26,9 +26,8 @@ fn summary(v: &Validation) -> Table {
     };
     let quantiles =
         |q: &Quantiles| several(q.count, format!("{} / {}", number(q.median), number(q.p90)));
-    let part = |x: Option<f64>| {
-        x.map_or("-".to_string(), |x| format!("{} %", significant(100.0 * x, 2)))
-    };
+    let part =
+        |x: Option<f64>| x.map_or("-".to_string(), |x| format!("{} %", significant(100.0 * x, 2)));
     let percents =
         |q: &Quantiles| several(q.count, format!("{} / {}", part(q.median), part(q.p90)));
     let overturned =
