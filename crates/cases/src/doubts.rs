@@ -212,7 +212,8 @@ fn density(mass_kg: f64, box_m: [f64; 3], least: f64) -> Option<Doubt> {
 
 /// Of a rigid body; a block of more is refused as it is read.
 fn inertia(body: &Structure) -> Option<Doubt> {
-    large_inertia(body.rotational_inertia_kgm2, body.body::<f64>().inertia_at_radius())
+    let rigid = body.body::<f64>();
+    large_inertia(body.rotational_inertia_kgm2, rigid.mass * rigid.radius().powi(2))
 }
 
 fn large_inertia(kgm2: f64, m_r2: f64) -> Option<Doubt> {

@@ -122,7 +122,8 @@ impl Structure {
             return Err(StructureError::Inertia { value });
         }
         let body = self.body::<f64>();
-        let most = body.inertia_at_radius();
+        // m R^2: within the outline of a block, 2h by 2b, that of all mass at its corners
+        let most = body.mass * (body.half_width.powi(2) + body.height.powi(2));
         if self.kind == Kind::Block && value > most * (1.0 + 1e-9) {
             return Err(StructureError::BeyondCorners { value, most });
         }
@@ -175,12 +176,6 @@ impl<S: Scalar> Body<S> {
     /// Horizontal force on the mass that lifts the body, m g tan(alpha) (N).
     pub fn lifting_force(&self) -> S {
         self.mass * real::<S>(GRAVITY) * self.half_width / self.height
-    }
-
-    /// m R^2, what I_cg is where all mass stands R from the centre (kg m2): within the outline of a
-    /// block, 2h by 2b, no more is to be had.
-    pub fn inertia_at_radius(&self) -> S {
-        self.mass * (self.half_width * self.half_width + self.height * self.height)
     }
 
     /// m R^2 / I0, with I0 = I_cg + m R^2: 1 for an A-frame, 3/4 for a solid block.
