@@ -83,7 +83,7 @@ impl Record {
             accel.iter_mut().for_each(|a| *a *= factor);
         }
         let record = core::Record::new(name, dt, accel).map_err(value_error)?;
-        record.notices(name, "").iter().try_for_each(|notice| warn(py, notice))?;
+        core::notices(&record, name, "").iter().try_for_each(|notice| warn(py, notice))?;
         Ok(Self(record))
     }
 

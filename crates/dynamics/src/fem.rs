@@ -52,7 +52,7 @@ mod turning;
 
 pub use control::{Control, HistoryOutcome, Work};
 pub use demands::between_landings;
-pub use demands::{DAMPERS, Demands, QUANTITIES};
+pub use demands::{DAMPERS, Demands, QUANTITIES, corner_forces};
 pub use energy::Energy;
 pub use history::{Account, Forces, History, Recorder};
 pub use landings::{Landing, MOMENT};

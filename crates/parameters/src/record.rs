@@ -9,7 +9,7 @@ use thiserror::Error;
 use super::Parameters;
 use files::message::one_line;
 use strong_motion::{
-    ReadOptions, Record, RecordError, Source, Units, Vertical, excitation::Excitation,
+    ReadOptions, Record, RecordError, Source, Units, Vertical, cut_to, excitation::Excitation,
 };
 
 /// Length that files which remember no record stand for, unless they hold a match (s).
@@ -163,8 +163,9 @@ impl RecordRow {
         let Some(row) = &self.vertical else { return Ok(record) };
         let remembered = (row.name.as_str(), Some(&row.fnv1a_64));
         // the hash is of what was used: up to the end of the record
-        let read =
-            |path: &Path, options: &ReadOptions| Ok(Vertical::read(path, options)?.cut_to(&record));
+        let read = |path: &Path, options: &ReadOptions| {
+            Ok(cut_to(Vertical::read(path, options)?, &record))
+        };
         let vertical = self.component(parameters, &row.source, remembered, read)?;
         Ok(record.with_vertical(vertical)?)
     }

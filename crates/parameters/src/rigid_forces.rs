@@ -23,7 +23,7 @@ use self::{
 };
 use crate::answers::{MemberHistory, ModelComparison};
 use dynamics::compare::Match;
-use dynamics::fem::{Demands, History, between_landings};
+use dynamics::fem::{Demands, History, between_landings, corner_forces};
 use frames::design_forces::{ForcesTogether, HeldForce};
 use results::{DesignForce, DesignForces};
 use rocking::{
@@ -150,7 +150,7 @@ fn together_at(
     let theta = *history.motion.theta.get(i)?;
     let kept = all_between(body, dt, history, demands.feet.len());
     (alone && kept.binary_search(&i).is_ok())
-        .then(|| GroundRow::new(kind, body, theta, demands.corners(i)).together(kind, k))
+        .then(|| GroundRow::new(kind, body, theta, corner_forces(demands, i)).together(kind, k))
 }
 
 /// A share of the weight below which a force is rounding.
@@ -214,7 +214,7 @@ fn on_springs(
     for &i in kept {
         let row = &demands.at[i];
         let stands = demands.feet[i].iter().all(|foot| foot[1] > 0.0);
-        let [[left_h, left], [right_h, right]] = demands.corners(i);
+        let [[left_h, left], [right_h, right]] = corner_forces(demands, i);
         // pressing with both feet it does not turn, and what its springs swing by is not its own
         let moment = match stands {
             true => (left_h + right_h) * body.height,

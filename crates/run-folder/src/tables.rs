@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use dynamics::fem::{Demands, History, QUANTITIES};
+use dynamics::fem::{Demands, History, QUANTITIES, corner_forces};
 use parameters::answers::ModelComparison;
 use rocking::{
     motion::Motion,
@@ -101,7 +101,7 @@ pub fn members_csv(
         if kind == Kind::Block {
             let [sum, difference] = match at_samples {
                 true => {
-                    let [[_, left], [_, right]] = demands.corners(i);
+                    let [[_, left], [_, right]] = corner_forces(demands, i);
                     [left + right, left - right]
                 }
                 false => [0, 1].map(|k| history.forces.both[k][i]),

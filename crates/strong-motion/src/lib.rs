@@ -47,13 +47,13 @@ pub use column::TableColumn;
 pub use direction::Direction;
 pub use error::RecordError;
 pub use format::RecordFormat;
-pub use notice::Notice;
+pub use notice::{Notice, notices};
 pub use peak::Peak;
 pub use recording::{Component, Recording};
 pub use source::Source;
 pub use source::fnv1a;
 pub use units::{Units, UnitsError};
-pub use vertical::{Vertical, VerticalFrom};
+pub use vertical::{Vertical, VerticalFrom, cut_to};
 pub use {
     folder::list_dir,
     measures::{Measures, measures},

@@ -44,30 +44,28 @@ impl Notice {
     pub(crate) const WEAK_G: f64 = 1e-4;
 }
 
-impl Record {
-    /// What the user should know of a record's time step and peaks, whether it is of a file or of
-    /// numbers; `file` and `component` name it, the latter empty where there is one.
-    pub fn notices(&self, file: &str, component: &str) -> Vec<Notice> {
-        let names = || (file.to_owned(), component.to_owned());
-        let mut notices = Vec::new();
-        let dt = self.dt;
-        if dt >= Notice::COARSE_S * (1.0 - 1e-9) {
-            let (file, component) = names();
-            notices.push(Notice::Coarse { file, component, dt });
-        }
-        let pgv = self.measures().pgv.value.abs();
-        if pgv > Notice::FAST_M_PER_S {
-            let (file, component) = names();
-            notices.push(Notice::Fast { file, component, pgv });
-        }
-        let (pga_g, (file, component)) = (self.pga_g(), names());
-        if pga_g > Notice::STRONG_G {
-            notices.push(Notice::Strong { file, component, pga_g });
-        } else if pga_g > 0.0 && pga_g < Notice::WEAK_G {
-            notices.push(Notice::Weak { file, component, pga_g });
-        }
-        notices
+/// What the user should know of a record's time step and peaks, whether it is of a file or of
+/// numbers; `file` and `component` name it, the latter empty where there is one.
+pub fn notices(record: &Record, file: &str, component: &str) -> Vec<Notice> {
+    let names = || (file.to_owned(), component.to_owned());
+    let mut notices = Vec::new();
+    let dt = record.dt;
+    if dt >= Notice::COARSE_S * (1.0 - 1e-9) {
+        let (file, component) = names();
+        notices.push(Notice::Coarse { file, component, dt });
     }
+    let pgv = record.measures().pgv.value.abs();
+    if pgv > Notice::FAST_M_PER_S {
+        let (file, component) = names();
+        notices.push(Notice::Fast { file, component, pgv });
+    }
+    let (pga_g, (file, component)) = (record.pga_g(), names());
+    if pga_g > Notice::STRONG_G {
+        notices.push(Notice::Strong { file, component, pga_g });
+    } else if pga_g > 0.0 && pga_g < Notice::WEAK_G {
+        notices.push(Notice::Weak { file, component, pga_g });
+    }
+    notices
 }
 
 /// Names of options in the words of a file that has them as keys of a section.

@@ -301,7 +301,7 @@ impl Component {
                 share,
             });
         }
-        notices.extend(self.record.notices(&file, &component));
+        notices.extend(super::notice::notices(&self.record, &file, &component));
         notices
     }
 }

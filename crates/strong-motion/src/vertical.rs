@@ -182,7 +182,7 @@ impl Recording {
         };
         let record = &self.component().record;
         let all = vertical.len();
-        let vertical = vertical.cut_to(record);
+        let vertical = cut_to(vertical, record);
         record.agrees(&vertical)?;
         let left_out = all - vertical.len();
         Ok(Some((vertical, left_out)))
@@ -203,17 +203,16 @@ pub fn as_record(vertical: &Vertical, dt: f64) -> Record {
     vertical.as_record(dt)
 }
 
-impl Record {
-    /// A component of the same time step without the samples after the end of `record`: the
-    /// components of one instrument often differ by a few.
-    #[must_use]
-    pub fn cut_to(mut self, record: &Self) -> Self {
-        if self.has_step_of(record) {
-            self.accel.truncate(record.len());
-        }
-        self
+/// A component of the same time step without the samples after the end of `record`: the components
+/// of one instrument often differ by a few.
+pub fn cut_to(mut component: Record, record: &Record) -> Record {
+    if component.has_step_of(record) {
+        component.accel.truncate(record.len());
     }
+    component
+}
 
+impl Record {
     fn has_step_of(&self, other: &Self) -> bool {
         (self.dt - other.dt).abs() <= 1e-9 * other.dt
     }

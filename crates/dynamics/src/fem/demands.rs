@@ -56,12 +56,6 @@ pub struct Demands {
 }
 
 impl Demands {
-    /// Forces on both corners of the body at a sample: of the ground and of the dashpot there (N).
-    pub fn corners(&self, sample: usize) -> [[f64; 2]; 2] {
-        let (feet, at) = (self.feet[sample], &self.at[sample]);
-        [0, 1].map(|i| [feet[i][0], feet[i][1] + at[DAMPERS[i]]])
-    }
-
     /// Find what is largest between these landings, over the first `samples` of the history.
     pub fn separate(&mut self, body: &Body<f64>, dt: f64, landings: &[Landing], samples: usize) {
         self.between = Default::default();
@@ -95,6 +89,12 @@ pub fn between_landings(
 /// The forces at one instant.
 pub(super) fn demand(view: &View) -> DemandRow {
     demand_of(view, &view.model.contact(&view.state.q, view.feet))
+}
+
+/// Forces on both corners of the body at a sample: of the ground and of the dashpot there (N).
+pub fn corner_forces(demands: &Demands, sample: usize) -> [[f64; 2]; 2] {
+    let (feet, at) = (demands.feet[sample], &demands.at[sample]);
+    [0, 1].map(|i| [feet[i][0], feet[i][1] + at[DAMPERS[i]]])
 }
 
 /// Each dashpot's force on its corner of the body, upwards (N).

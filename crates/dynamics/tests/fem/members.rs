@@ -1,7 +1,7 @@
 //! Dampers and a tendon through El Centro.
 
 use dynamics::{
-    fem::{Analysis, Control, Demands, History, Start},
+    fem::{Analysis, Control, Demands, History, Start, corner_forces},
     spring::{Chain, Springs},
 };
 use rocking::{
@@ -273,7 +273,7 @@ fn balances(structure: &Structure, c: f64, tendon: Tendon) {
         let mean = |of: &dyn Fn(usize) -> f64| (of(i - 1) + 4.0 * of(i) + of(i + 1)) / 6.0;
         let found = mean(&|i| {
             let rise = body.height + v[i] + history.initial_z;
-            let [left, right] = demands.corners(i);
+            let [left, right] = corner_forces(&demands, i);
             left[1] + right[1] - demands.at[i][7] * rise / u[i].hypot(rise)
         });
         let due = body.mass * (second(v) + GRAVITY + mean(&|i| up[i]));
