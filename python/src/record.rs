@@ -83,7 +83,11 @@ impl Record {
             accel.iter_mut().for_each(|a| *a *= factor);
         }
         let record = core::Record::new(name, dt, accel).map_err(value_error)?;
-        core::notices(&record, name, "").iter().try_for_each(|notice| warn(py, notice))?;
+        // a slow push that is made of numbers may end with any velocity
+        let doubtful = core::notices(&record, name, "").into_iter();
+        doubtful
+            .filter(|notice| !matches!(notice, core::Notice::Fast { .. }))
+            .try_for_each(|notice| warn(py, &notice))?;
         Ok(Self(record))
     }
 

@@ -143,15 +143,14 @@ def test_a_scale_of_zero_is_refused_as_the_program_does() -> None:
 
 
 def test_numbers_that_no_record_has_are_doubted() -> None:
-    """60 m/s2 is 6.116 g; 3 m/s2 for 2 s and back makes 6 m/s."""
+    """60 m/s2 is 6.116 g. A slow push is none of these: 3 m/s2 for 2 s makes 6 m/s."""
     to_and_fro = np.tile([1.0, -1.0], 20)
     with pytest.warns(gs.GroundspringWarning, match="a peak of 6.116 g, above 5 g; check the unit") as told:
         gs.Record(0.01, 60.0 * to_and_fro)
     assert [one.filename for one in told] == [__file__]
     with pytest.warns(gs.GroundspringWarning, match="a time step of 0.1 s"):
         gs.Record(0.1, 0.1 * to_and_fro)
-    with pytest.warns(gs.GroundspringWarning, match="a peak velocity of 5.9.* m/s, above 3 m/s"):
-        gs.Record(0.01, np.repeat([3.0, -3.0], 200))
+    gs.Record(0.01, np.repeat([3.0, -3.0], 200))
     gs.Record(0.01, to_and_fro)
 
 
