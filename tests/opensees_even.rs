@@ -22,7 +22,7 @@ fn interpreter(format: &str) -> Option<Vec<String>> {
 /// Decks of even steps and of substeps at touches end within 1 % of what our emulation found, which
 /// they check by themselves, in Python and in Tcl; a block, a frame, three integrators.
 #[test]
-#[ignore = "needs OpenSees, which .ci/run installs"]
+#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
 fn decks_of_even_steps_find_what_the_emulation_found() {
     let folder = tempfile::tempdir().unwrap();
     let run = |args: &[&str]| {
@@ -101,7 +101,7 @@ fn decks_of_even_steps_find_what_the_emulation_found() {
 /// as far as the motion can be predicted, in Python and in Tcl: a pier without damping, for which
 /// OpenSees for Tcl may have no objects.
 #[test]
-#[ignore = "needs OpenSees, which .ci/run installs"]
+#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
 fn elastic_decks_of_substeps_at_touches_find_what_the_emulation_found() {
     let folder = tempfile::tempdir().unwrap();
     let run = |args: &str| {

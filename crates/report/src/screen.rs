@@ -13,7 +13,7 @@ use super::{
 };
 use files::message::{shortened, significant};
 use lines::{at_most, parts_at_most, wrap};
-use warnings::{Warned, is_doubt, tell, warning_lines, warnings};
+use warnings::{Warned, is_doubt, tell, warnings};
 
 /// Lines of a screen, and letters of a line.
 pub(crate) const LINES: usize = 30;
@@ -76,8 +76,7 @@ const CLOSEST: Crowding = Crowding {
     tight: false,
 };
 
-/// The first is taken if every warning has all its lines there; else the first of the others where
-/// each has what it needs; else the last.
+/// The first is taken where every warning has all its lines; else the last.
 const CROWDING: [Crowding; 7] = [
     SPACIOUS,
     Crowding { empty_line: false, ..SPACIOUS },
@@ -160,12 +159,10 @@ pub fn screen(run: &Run, written: &Written) -> String {
     let warnings = warnings(run, written.left_out);
     // the last line is the report's
     let room = |lines: &Vec<String>| (LINES - 1).saturating_sub(lines.len());
-    let wanted: usize = warnings.iter().map(warning_lines).sum();
-    let least: usize = warnings.iter().map(Warned::least_lines).sum();
+    let wanted: usize = warnings.iter().map(|warning| warning.lines().len()).sum();
     let answers = CROWDING.iter().map(|crowding| answer(run, written, *crowding));
     let fits = |(level, lines): &(usize, Vec<String>)| {
-        let enough = room(lines) >= if *level == 0 { wanted } else { least };
-        lines.len() < LINES && enough || level + 1 == CROWDING.len()
+        lines.len() < LINES && room(lines) >= wanted || level + 1 == CROWDING.len()
     };
     let mut lines = answers.enumerate().find(fits).map(|(_, lines)| lines).unwrap_or_default();
     lines.truncate(LINES - 1);
@@ -269,7 +266,7 @@ fn taken(run: &Run, written: &Written, crowding: Crowding, lines: &mut Vec<Strin
         at_most(two, lines, "", record.strip_prefix(name).unwrap_or(record));
     }
     for filed in run.remarks().filter(|filed| is_doubt(filed)) {
-        lines.extend(Warned::of(CHECK, filed).in_lines(LINES));
+        lines.extend(Warned::of(CHECK, filed).lines());
     }
     let all: Vec<String> =
         run.taken.assumed.iter().map(|a| format!("{} ({})", a.what, a.key)).collect();

@@ -1,19 +1,11 @@
 //! Warnings at the end of the screen, in the room that is left.
 
-use super::{
-    LINES,
-    lines::{at_most, wrap},
-};
+use super::{LINES, lines::wrap};
 use crate::{Run, sentence};
 use results::{FiledFinding, Finding, Weight};
 
 /// What a warning begins with.
 const WARNING: &str = "warning   ";
-/// Lines that one warning may take.
-const LONGEST_WARNING: usize = 3;
-/// Letters of a message that a remedy leaves of it at least.
-const LEAST_MESSAGE: usize = 34;
-
 /// What changes a design the most is told first.
 fn urgency(finding: &Finding) -> usize {
     match finding {
@@ -46,72 +38,26 @@ fn is_of_forces(run: &Run, filed: &FiledFinding) -> bool {
     run.design_forces.is_some() && matches!(filed.finding, Finding::ForceWithheld { .. })
 }
 
-/// A warning, and what to do.
+/// A warning, and what to do. It is told in all its lines, or the report's line counts it.
 pub(super) struct Warned {
     /// What its line begins with.
     name: &'static str,
-    message: String,
-    remedy: String,
-    /// Whether it is not to be cut: it is told in all its lines, or the report's line counts it.
-    whole: bool,
+    text: String,
 }
 
 impl Warned {
     /// A finding, its message and remedy as sentences.
     pub(super) fn of(name: &'static str, filed: &FiledFinding) -> Self {
-        Self {
-            name,
-            message: sentence(&filed.message),
-            remedy: filed.remedy.as_ref().map_or(String::new(), |r| format!(" {}", sentence(r))),
-            whole: true,
-        }
+        let remedy = filed.remedy.as_ref().map_or(String::new(), |r| format!(" {}", sentence(r)));
+        Self { name, text: sentence(&filed.message) + &remedy }
     }
 
-    /// Lines that it may take.
-    pub(super) fn most(&self) -> usize {
-        if self.whole { LINES } else { LONGEST_WARNING }
-    }
-
-    /// Lines that it needs.
-    pub(super) fn least_lines(&self) -> usize {
-        if self.whole { warning_lines(self) } else { 1 }
-    }
-
-    /// In so many lines: what does not fit is left out of the message, so that the remedy stays,
-    /// unless that takes most of them.
-    pub(super) fn in_lines(&self, most: usize) -> Vec<String> {
+    /// Its lines.
+    pub(super) fn lines(&self) -> Vec<String> {
         let mut all = Vec::new();
-        wrap(&mut all, self.name, &format!("{}{}", self.message, self.remedy));
-        if all.len() <= most {
-            return all;
-        }
-        // words are wrapped at spaces, so that a line may stay shorter than it could be
-        let short = (1..self.message.split(' ').count()).rev().find_map(|words| {
-            let kept: Vec<&str> = self.message.split(' ').take(words).collect();
-            let whole = kept.last().is_none_or(|last| ends_a_part(last));
-            let kept = kept.join(" ");
-            let kept = kept.trim_end_matches([',', ';', ':']);
-            let enough = kept.chars().count() >= self.remedy.chars().count().min(LEAST_MESSAGE);
-            let mut some = Vec::new();
-            wrap(&mut some, self.name, &format!("{kept} ...{}", self.remedy));
-            (whole && enough && some.len() <= most).then_some(some)
-        });
-        short.unwrap_or_else(|| {
-            let mut some = Vec::new();
-            at_most(most, &mut some, self.name, &format!("{}{}", self.message, self.remedy));
-            some
-        })
+        wrap(&mut all, self.name, &self.text);
+        all
     }
-}
-
-/// Whether a message may be cut behind a word: not behind a number without its unit, nor a word
-/// that wants another.
-fn ends_a_part(word: &str) -> bool {
-    const WANTS: [&str; 22] = [
-        "a", "an", "and", "are", "at", "by", "far", "from", "how", "in", "is", "it", "more", "not",
-        "of", "on", "so", "than", "the", "to", "with", "within",
-    ];
-    !word.ends_with(|c: char| c.is_ascii_digit()) && !WANTS.contains(&word)
 }
 
 /// Warnings in words, the gravest first.
@@ -123,7 +69,7 @@ pub(super) fn warnings(run: &Run, of_decks: &[String]) -> Vec<Warned> {
         let remedy =
             if remedy.is_empty() { String::new() } else { format!(" {}", sentence(remedy)) };
         // a file's name stays as it is
-        Warned { name: WARNING, message: format!("{message}."), remedy, whole: true }
+        Warned { name: WARNING, text: format!("{message}.{remedy}") }
     };
     let grave = |filed: &FiledFinding| {
         let key = (std::cmp::Reverse(filed.weight), urgency(&filed.finding));
@@ -136,94 +82,46 @@ pub(super) fn warnings(run: &Run, of_decks: &[String]) -> Vec<Warned> {
     all.into_iter().map(|(_, warned)| warned).collect()
 }
 
-/// Lines that a warning wants.
-pub(super) fn warning_lines(warning: &Warned) -> usize {
-    warning.in_lines(warning.most()).len()
-}
-
-/// Warnings in the room that is left, the last line for the report: each has one line before any
-/// has a second. Returns how many are left out.
+/// Warnings in the room that is left, the last line for the report: those that fit as a whole.
+/// Returns how many are left out.
 pub(super) fn tell(warnings: &[Warned], lines: &mut Vec<String>) -> usize {
-    let room = (LINES - 1).saturating_sub(lines.len());
-    let mut left = room;
-    // what each needs, as far as there is room: those that are not to be cut need all
-    let needs = |warning: &Warned| {
-        let least = match warning.least_lines() {
-            all if warning.whole && all > left => 0,
-            some => some.min(left),
-        };
-        left -= least;
-        least
-    };
-    let mut given: Vec<usize> = warnings.iter().map(needs).collect();
-    let told = given.iter().filter(|lines| **lines > 0).count();
-    left = room - given.iter().sum::<usize>();
-    for most in 2..=LONGEST_WARNING {
-        for (given, warning) in given.iter_mut().zip(warnings) {
-            if left > 0 && (1..most).contains(given) && warning_lines(warning) >= most {
-                *given += 1;
-                left -= 1;
-            }
+    let mut left_out = 0;
+    for all in warnings.iter().map(Warned::lines) {
+        if lines.len() + all.len() < LINES {
+            lines.extend(all);
+        } else {
+            left_out += 1;
         }
     }
-    for (most, warning) in given.into_iter().zip(warnings).filter(|(most, _)| *most > 0) {
-        lines.extend(warning.in_lines(most));
-    }
-    warnings.len() - told
+    left_out
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{super::WIDTH, *};
+    use super::*;
 
+    /// Warnings of so many lines, below so many others: what is told of them, and how many are not.
     fn told(warnings: &[usize], taken: usize) -> (Vec<String>, usize) {
-        let warned = |n: &usize| Warned {
-            whole: false,
-            name: WARNING,
-            message: "a word ".repeat(13 * n - 3),
-            remedy: String::new(),
-        };
+        let warned =
+            |n: &usize| Warned { name: WARNING, text: "a word ".repeat(13 * n - 3).trim().into() };
         let all: Vec<Warned> = warnings.iter().map(warned).collect();
+        assert!(all.iter().zip(warnings).all(|(warning, n)| warning.lines().len() == *n));
         let mut lines = vec![String::from("x"); taken];
         let left_out = tell(&all, &mut lines);
         (lines.split_off(taken), left_out)
     }
 
     #[test]
-    fn a_message_gives_way_to_its_remedy() {
-        let warned = Warned {
-            whole: false,
-            name: WARNING,
-            message: "a word ".repeat(30),
-            remedy: " Do this: --that.".into(),
-        };
-        assert_eq!(warned.in_lines(3).len(), 3);
-        for lines in [1, 2] {
-            let some = warned.in_lines(lines);
-            assert!(some.len() == lines && some[lines - 1].ends_with("... Do this: --that."));
-            assert!(some.iter().all(|line| line.chars().count() <= WIDTH));
-        }
-        // a remedy that leaves no room for what it is for is cut like the message
-        let long = Warned {
-            whole: false,
-            name: WARNING,
-            message: "a word ".repeat(30),
-            remedy: " many words".repeat(8),
-        };
-        assert!(long.in_lines(1)[0].starts_with("warning   a word a word"));
-        assert!(long.in_lines(1)[0].ends_with(" ..."));
-    }
-
-    #[test]
-    fn each_warning_has_one_line_before_any_has_a_second() {
+    fn a_warning_is_told_in_all_its_lines_or_counted() {
         let starts = |lines: &[String]| lines.iter().filter(|l| l.starts_with(WARNING)).count();
-        let (all, left_out) = told(&[3, 2, 1], 20);
-        assert_eq!((all.len(), starts(&all), left_out), (6, 3, 0));
-        let (some, _) = told(&[3, 2, 1], LINES - 5);
-        assert_eq!((some.len(), starts(&some)), (4, 3));
-        assert!(some[1].starts_with(' ') && some[1].ends_with("...") && some[2].ends_with("..."));
-        let (few, left_out) = told(&[3, 2, 1], LINES - 2);
-        assert_eq!((few.len(), left_out), (1, 2));
+        for (room, lines, warnings) in [(9, 6, 3), (6, 6, 3), (5, 5, 2), (4, 4, 2), (3, 3, 1)] {
+            let (some, left_out) = told(&[3, 2, 1], LINES - 1 - room);
+            assert_eq!((some.len(), starts(&some), left_out), (lines, warnings, 3 - warnings));
+            assert!(some.iter().all(|line| !line.ends_with("...")), "{some:?}");
+        }
+        // one that has no room leaves it to the next
+        let (some, left_out) = told(&[3, 2, 1], LINES - 1 - 2);
+        assert_eq!((some.len(), starts(&some), left_out), (2, 1, 2));
         assert_eq!(told(&[1], LINES), (Vec::new(), 1));
     }
 }
