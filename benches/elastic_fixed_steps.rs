@@ -1,5 +1,5 @@
-//! Springs of elastic structures in steps of one size: histories lost, and errors, over the
-//! stiffness of the horizontal units and over the stance.
+//! Springs of elastic structures in steps of one size: histories lost, and errors, over the stances
+//! of vertical and of horizontal units.
 //!
 //! ```sh
 //! cargo bench --bench elastic_fixed_steps
@@ -20,9 +20,19 @@ type BenchError = Box<dyn std::error::Error>;
 
 /// The programs' step (s).
 const STEP: f64 = 1e-3;
-/// k1 of horizontal units over that of vertical ones; stances over the recipe's.
-const HORIZONTAL: [f64; 4] = [64.0, 16.0, 4.0, 1.0];
-const STIFFER: [f64; 3] = [1.0, 4.0, 16.0];
+/// Stances of the vertical and of the horizontal units.
+const STANCES: [[f64; 2]; 10] = [
+    [12.0, 768.0],
+    [12.0, 192.0],
+    [12.0, 48.0],
+    [12.0, 12.0],
+    [12.0, 3.0],
+    [48.0, 192.0],
+    [48.0, 12.0],
+    [192.0, 768.0],
+    [192.0, 12.0],
+    [3.0, 3.0],
+];
 
 /// Height, span, width and height of a footing (m), its mass, the beam's (kg), EI of a column.
 const FRAMES: [[f64; 7]; 3] = [
@@ -63,17 +73,12 @@ fn programs() -> [(&'static str, FixedStepProgram); 3] {
 /// A number of the family, and springs of it.
 type Row = (String, ElasticFixedStepDesign);
 
-fn rows() -> Vec<Row> {
-    let recipe = ElasticFixedStepDesign::RECIPE;
-    let across = HORIZONTAL.map(|horizontal_over_vertical| {
-        let design = ElasticFixedStepDesign { horizontal_over_vertical, ..recipe };
-        (format!("horizontal {horizontal_over_vertical} times as stiff"), design)
-    });
-    let up = STIFFER.map(|times| {
-        let design = ElasticFixedStepDesign { stance: times * recipe.stance, ..recipe };
-        (format!("stance {}", design.stance), design)
-    });
-    across.into_iter().chain(up).collect()
+fn rows() -> [Row; STANCES.len()] {
+    STANCES.map(|[stance, horizontal_stance]| {
+        let recipe = ElasticFixedStepDesign::RECIPE;
+        let design = ElasticFixedStepDesign { stance, horizontal_stance, ..recipe };
+        (format!("stance {stance}, horizontal {horizontal_stance}"), design)
+    })
 }
 
 fn main() -> Result<(), BenchError> {

@@ -37,8 +37,8 @@ use dynamics::{
 };
 use fixed_steps::FixedStepProgram;
 use frames::{
-    answer::Reference, assembled::Assembled, fem::default_control, standing::Standing,
-    structure::ElasticStructure,
+    answer::Reference, assembled::Assembled, fem::default_control, reference::GroundAcceleration,
+    standing::Standing, structure::ElasticStructure,
 };
 use results::{Finding, NotDone};
 use strong_motion::Record;
@@ -146,7 +146,9 @@ pub fn tune_within(
     let suite =
         ElasticSuite::new(model.clone(), record.zip(reference.as_ref()), effort).by(asked.by);
     let out_of_work = suite.out_of_work;
-    let program = ElasticProgramSprings::measured(&suite, program, &model.structure.body(), effort);
+    let whole = record.map(GroundAcceleration::of);
+    let program =
+        ElasticProgramSprings::measured(&suite, whole, program, &model.structure.body(), effort);
     let of = |i: i64, share: f64| springs(&standing, give(i), landing, share);
     let measure =
         |springs: &CornerSprings| suite.measure_within(springs, (Control::search(), effort));

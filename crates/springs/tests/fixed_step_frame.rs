@@ -51,9 +51,22 @@ fn ends(design: ElasticFixedStepDesign) -> FixedStepOutcome {
 fn stiff_horizontal_springs_leave_a_step_without_an_end() {
     let recipe = ElasticFixedStepDesign::RECIPE;
     assert_eq!(ends(recipe), FixedStepOutcome::Finished);
-    let stiff = ElasticFixedStepDesign { horizontal_over_vertical: 64.0, ..recipe };
+    let stiff =
+        ElasticFixedStepDesign { horizontal_stance: 16.0 * recipe.horizontal_stance, ..recipe };
     let stuck = ends(stiff);
     assert!(matches!(stuck, FixedStepOutcome::GaveUp(_)), "{stuck:?}");
+}
+
+/// A stiffer stance is stuck by its horizontal springs alone.
+#[test]
+fn a_stiff_stance_on_soft_horizontal_springs_has_an_end_for_every_step() {
+    let recipe = ElasticFixedStepDesign::RECIPE;
+    let stiffer = ElasticFixedStepDesign { stance: 16.0 * recipe.stance, ..recipe };
+    let stuck =
+        ElasticFixedStepDesign { horizontal_stance: 16.0 * recipe.horizontal_stance, ..stiffer };
+    assert!(matches!(ends(stuck), FixedStepOutcome::GaveUp(_)));
+    let soft = ElasticFixedStepDesign { horizontal_stance: recipe.stance, ..stiffer };
+    assert_eq!(ends(soft), FixedStepOutcome::Finished);
 }
 
 /// Horizontal units land as before whatever their stiffness: all four poles of the mass that lands
@@ -64,8 +77,9 @@ fn horizontal_units_of_any_stiffness_stop_what_lands_by_four_equal_poles() {
     let standing = stand(&model).unwrap();
     let body = model.structure.body();
     for horizontal_over_vertical in [64.0, 4.0, 1.0] {
-        let design =
-            ElasticFixedStepDesign { horizontal_over_vertical, ..ElasticFixedStepDesign::RECIPE };
+        let recipe = ElasticFixedStepDesign::RECIPE;
+        let horizontal_stance = horizontal_over_vertical * recipe.stance;
+        let design = ElasticFixedStepDesign { horizontal_stance, ..recipe };
         for corner in design.springs(&standing, STEP, &body).corners {
             let (unit, m) = (corner.horizontal, 4.0 * corner.horizontal.m2);
             let close = |found: f64, expected: f64| (found / expected - 1.0).abs() < 1e-9;

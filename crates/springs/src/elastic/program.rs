@@ -4,7 +4,7 @@
 //!   k_e  s (M/n) p/(alpha^2 dt)   vertical, both springs of a unit in series; n bases; s: the stance;
 //!                                 M, p, alpha of the rigid body of the same size
 //!   K    1/4, or 1/10             units of what lands at a corner (`landing::part`)
-//!   k1_h 4 k1_v                   horizontal units, which land as before, only slower
+//!   k1_h 4 k1_v, or less          horizontal units, which land as before, only slower
 //! ```
 //!
 //! **Stance.** The recipe's 12 (`fixed_steps::recipe`) is tried first. A structure on low footings
@@ -16,7 +16,10 @@
 //! vertical ones, turn it so far within a step that a corner which presses lifts, while one that is
 //! open goes into the ground: the step has no end, in whatever iteration. Of springs four times as
 //! stiff as the vertical ones few steps are such, and they err no more
-//! (`cargo bench --bench elastic_fixed_steps`).
+//! (`cargo bench --bench elastic_fixed_steps`). Stiffer stances lose motions with them; with
+//! horizontal springs as soft as the first vertical ones they lose hardly any, and are tried, too.
+//! Where motions are lost all the same, or the program gives up on the record, softer springs are
+//! tried: across, then upwards, too.
 //!
 //! Which K and stance are better depends on what lands, the step and the integrator: springs are
 //! stepped as the program does, on the motions that the structure's other springs are judged on and
@@ -43,6 +46,7 @@ use fixed_steps::{
 use frames::{
     assembled::{Assembled, errors},
     peaks::StructurePeaks,
+    reference::GroundAcceleration,
     standing::Standing,
 };
 use rocking::{scalar::GRAVITY, structure::Body};
@@ -51,31 +55,39 @@ use rocking::{scalar::GRAVITY, structure::Body};
 const LONGER: [f64; 3] = [2.0, 4.0, 8.0];
 /// K of the units that are tried.
 const TRIED: [f64; 2] = [0.25, 0.1];
-/// Stances over the recipe's that are tried after it, in this order.
-const STIFFER: [f64; 2] = [4.0, 16.0];
+/// Stances of vertical and horizontal units that are tried after the recipe's, in this order, each
+/// row as long as springs err less.
+const STIFFER: [[[f64; 2]; 2]; 2] =
+    [[[48.0, 192.0], [192.0, 768.0]], [[48.0, 12.0], [192.0, 12.0]]];
+/// Those that are tried while something is lost.
+const SOFTER: [[f64; 2]; 4] = [[12.0, 12.0], [12.0, 3.0], [3.0, 3.0], [3.0, 0.75]];
 
 /// Springs of elastic structures in programs with fixed time steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElasticFixedStepDesign {
-    /// k_e over (M/n) p/(alpha^2 dt).
+    /// k_e over (M/n) p/(alpha^2 dt), of vertical units.
     pub stance: f64,
     /// k2/k1 of vertical units.
     pub k: f64,
-    /// k1 and k2 of horizontal units over those of the vertical ones.
-    pub horizontal_over_vertical: f64,
+    /// The stance at which vertical units would have the k1 of the horizontal ones.
+    pub horizontal_stance: f64,
 }
 
 impl ElasticFixedStepDesign {
     /// The first that is tried.
-    pub const RECIPE: Self =
-        Self { stance: FixedStepDesign::RECIPE.stance, k: TRIED[0], horizontal_over_vertical: 4.0 };
+    pub const RECIPE: Self = Self {
+        stance: FixedStepDesign::RECIPE.stance,
+        k: TRIED[0],
+        horizontal_stance: 4.0 * FixedStepDesign::RECIPE.stance,
+    };
 
     /// Springs for a step (s); `body` is the rigid body of the same size.
     pub fn springs(&self, standing: &Standing, step: f64, body: &Body<f64>) -> CornerSprings {
         let (p, bases) = (body.p_squared().sqrt(), standing.footings.len().max(1) as f64);
         let in_series = self.stance * standing.mass / bases * p / (body.alpha().powi(2) * step);
         let k1 = in_series * (1.0 + self.k) / self.k;
-        with_vertical(standing, k1, self.k).with_horizontal(standing, self.horizontal_over_vertical)
+        let over_vertical = self.horizontal_stance / self.stance;
+        with_vertical(standing, k1, self.k).with_horizontal(standing, over_vertical)
     }
 }
 
@@ -94,24 +106,29 @@ pub struct ElasticProgramSprings {
     /// rotations, and of the displacement, drift or uplift that errs most. None of a step too long
     /// to promise anything, or if there is nothing to measure on.
     pub measured: Option<ErrorsOverMotions>,
+    /// Whether the program gives up on the record, in its whole length.
+    gives_up: bool,
 }
 
 impl ElasticProgramSprings {
-    /// Of a structure, measured on its suite; none if it does not stand. Where a step that nobody
-    /// gave loses most motions, the first longer one that does not.
+    /// Of a structure, measured on its suite; the whole record only has to be got through. None if
+    /// it does not stand. Where a step that nobody gave loses most motions, the first longer one
+    /// that does not.
     pub(crate) fn measured(
         suite: &ElasticSuite,
+        record: Option<GroundAcceleration>,
         program: FixedStepProgram,
         body: &Body<f64>,
         effort: &Effort,
     ) -> Option<Self> {
-        let first = Self::at_step(suite, program, body, effort)?;
+        let at_step = |program| Self::at_step(suite, record, program, body, effort);
+        let first = at_step(program)?;
         if program.step_is_given || !first.loses_most() {
             return Some(first);
         }
         let longer = |times: f64| {
             let step = times * program.step;
-            Self::at_step(suite, FixedStepProgram { step, ..program }, body, effort)
+            at_step(FixedStepProgram { step, ..program })
         };
         let mut others = LONGER.into_iter().map_while(longer);
         Some(others.find(|found| found.measured.is_some() && !found.loses_most()).unwrap_or(first))
@@ -124,42 +141,50 @@ impl ElasticProgramSprings {
 
     fn at_step(
         suite: &ElasticSuite,
+        record: Option<GroundAcceleration>,
         program: FixedStepProgram,
         body: &Body<f64>,
         effort: &Effort,
     ) -> Option<Self> {
         let standing = stand(&suite.model)?;
-        let mut design = ElasticFixedStepDesign::RECIPE;
-        let mut best = Self::at(&standing, &design, program, body);
+        let mut best = Self::at(&standing, &ElasticFixedStepDesign::RECIPE, program, body);
         if body.p_squared().sqrt() * program.step > LONGEST {
             return Some(best);
         }
-        best.measured = best.errors(suite, effort);
-        let errs_less = |design: &ElasticFixedStepDesign, than: &mut Self| {
+        best.measure(suite, record, effort);
+        let errs_less = |other: ElasticFixedStepDesign, (best, design): &mut (Self, _)| {
             if effort.stopped() {
                 return false;
             }
-            let mut springs = Self::at(&standing, design, program, body);
-            springs.measured = springs.errors(suite, effort);
-            let less = springs.rank() < than.rank();
+            let mut springs = Self::at(&standing, &other, program, body);
+            springs.measure(suite, record, effort);
+            let less = springs.rank() < best.rank();
             if less {
-                *than = springs;
+                (*best, *design) = (springs, other);
             }
             less
         };
+        let mut found = (best, ElasticFixedStepDesign::RECIPE);
         for k in &TRIED[1..] {
-            let other = ElasticFixedStepDesign { k: *k, ..design };
-            if errs_less(&other, &mut best) {
-                design = other;
+            errs_less(ElasticFixedStepDesign { k: *k, ..found.1 }, &mut found);
+        }
+        for row in STIFFER {
+            for [stance, horizontal_stance] in row {
+                let other = ElasticFixedStepDesign { stance, horizontal_stance, ..found.1 };
+                if !errs_less(other, &mut found) {
+                    break;
+                }
             }
         }
-        for times in STIFFER {
-            let stance = times * ElasticFixedStepDesign::RECIPE.stance;
-            if !errs_less(&ElasticFixedStepDesign { stance, ..design }, &mut best) {
-                break;
+        for [stance, horizontal_stance] in SOFTER {
+            for k in TRIED {
+                if found.0.rank().0 > 0 {
+                    let other = ElasticFixedStepDesign { stance, k, horizontal_stance };
+                    errs_less(other, &mut found);
+                }
             }
         }
-        Some(best)
+        Some(found.0)
     }
 
     fn at(
@@ -172,16 +197,30 @@ impl ElasticProgramSprings {
         let uplift = standing.uplift().unwrap_or(GRAVITY * body.alpha().tan());
         let settings = program.settings(standing.mass * uplift);
         let floor = FLOOR * body.p_squared().sqrt() * program.step;
-        Self { program, springs, settings, floor, measured: None }
+        Self { program, springs, settings, floor, measured: None, gives_up: false }
     }
 
-    /// Lost motions, then the median of rotations.
+    /// Step the springs on the suite's motions, and on the whole record to see that the program
+    /// gets through.
+    fn measure(
+        &mut self,
+        suite: &ElasticSuite,
+        record: Option<GroundAcceleration>,
+        effort: &Effort,
+    ) {
+        self.measured = errors_on(suite, &self.springs, self.settings, effort);
+        let corners = &self.springs.corners;
+        let whole = record.and_then(|ground| history(&suite.model, corners, self.settings, ground));
+        self.gives_up =
+            whole.is_some_and(|history| matches!(history.outcome, FixedStepOutcome::GaveUp(_)));
+    }
+
+    /// Histories that are lost, then the median of rotations; springs that were not measured come
+    /// last.
     fn rank(&self) -> (usize, f64) {
-        self.measured.as_ref().map_or((0, 0.0), |errors| (errors.lost(), errors.quantile(0.5)))
-    }
-
-    fn errors(&self, suite: &ElasticSuite, effort: &Effort) -> Option<ErrorsOverMotions> {
-        errors_on(suite, &self.springs, self.settings, effort)
+        self.measured.as_ref().map_or((usize::MAX, f64::INFINITY), |errors| {
+            (errors.lost() + usize::from(self.gives_up), errors.quantile(0.5))
+        })
     }
 }
 
@@ -213,6 +252,18 @@ pub fn for_substep(model: &Assembled, k: f64, substep: f64) -> Option<CornerSpri
     Some(design.springs(&stand(model)?, substep, &model.structure.body()))
 }
 
+/// A history of the structure in a program; none if it does not stand.
+fn history(
+    model: &Assembled,
+    springs: &[Springs<Chain>],
+    settings: StepSettings,
+    GroundAcceleration { dt, accel, vertical }: GroundAcceleration,
+) -> Option<FixedStepFrameHistory> {
+    let frame = FixedStepFrame::new(&model.frame, springs).ok()?;
+    let analysis = FixedStepAnalysis::new(&frame, settings, dt, accel);
+    FixedStepAnalysis { vertical, ..analysis }.history().ok()
+}
+
 /// A history of the structure in a program beside the reference's.
 fn stepped(
     model: &Assembled,
@@ -220,10 +271,10 @@ fn stepped(
     settings: StepSettings,
     trial: &ElasticTrial,
 ) -> Option<StepErrors> {
-    let frame = FixedStepFrame::new(&model.frame, springs).ok()?;
-    let analysis = FixedStepAnalysis::new(&frame, settings, trial.dt, &trial.accel);
-    let analysis = FixedStepAnalysis { vertical: &trial.vertical, ..analysis };
-    let FixedStepFrameHistory { coordinates, outcome, work } = analysis.history().ok()?;
+    let ground =
+        GroundAcceleration { dt: trial.dt, accel: &trial.accel, vertical: &trial.vertical };
+    let FixedStepFrameHistory { coordinates, outcome, work } =
+        history(model, springs, settings, ground)?;
     let lost = StepErrors { outcome, history: f64::INFINITY, peak: f64::INFINITY, work };
     if outcome != FixedStepOutcome::Finished {
         return Some(lost);
