@@ -1,10 +1,13 @@
 //! `tune chart`: smooth enough to be read off, and springs read off it by hand hold the landings.
 
-use std::{f64::consts::TAU, path::Path, process::Command};
+use std::f64::consts::TAU;
 
 use dynamics::spring::{Design, Springs};
 use rocking::structure::Structure;
 use springs::landing_simulation::report::landings;
+
+#[path = "support/program.rs"]
+mod program;
 
 /// A row of chart.csv: kind, alpha, Omega_n/p, and (K, mu, f, xi) of the vertical units,
 /// Omega_h/Omega_v.
@@ -15,14 +18,10 @@ struct Row {
     values: [f64; 5],
 }
 
-fn chart(folder: &Path) -> Vec<Row> {
-    let done = Command::new(env!("CARGO_BIN_EXE_tune"))
-        .args(["chart", "--out"])
-        .arg(folder)
-        .output()
-        .unwrap();
-    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
-    let text = std::fs::read_to_string(folder.join("chart.csv")).unwrap();
+fn chart() -> Vec<Row> {
+    let folder = program::TestFolder::with(&[]);
+    folder.runs("chart --out out");
+    let text = folder.text("out/chart.csv");
     let names: Vec<&str> = text.lines().next().unwrap().split(',').collect();
     let column = |name: &str| names.iter().position(|x| *x == name).unwrap();
     let wanted =
@@ -76,8 +75,7 @@ fn read_off(rows: &[Row], kind: &str, alpha: f64, stiffness: f64) -> Option<Spri
 
 #[test]
 fn springs_read_off_by_hand_hold_the_landings_within_a_fifth_of_a_per_cent() {
-    let folder = tempfile::tempdir().unwrap();
-    let rows = chart(folder.path());
+    let rows = chart();
     let mut read = 0;
     println!("kind, alpha, Omega_n/p: largest error of e");
     for kind in ["aframe", "block"] {
@@ -91,7 +89,7 @@ fn springs_read_off_by_hand_hold_the_landings_within_a_fifth_of_a_per_cent() {
                 let body = structure.body::<f64>();
                 let Some(mut springs) = read_off(&rows, kind, alpha, stiffness) else { continue };
                 read += 1;
-                let hz = stiffness * body.p_squared().sqrt() / TAU;
+                let hz = stiffness * body.p() / TAU;
                 springs.vertical.omega_n_hz *= hz;
                 springs.horizontal.omega_n_hz *= hz;
                 let rows = landings(&body, &springs.chains(body.mass), body.restitution());
@@ -112,8 +110,7 @@ fn springs_read_off_by_hand_hold_the_landings_within_a_fifth_of_a_per_cent() {
 /// row, so that a straight line between two rows is right to half a per cent.
 #[test]
 fn the_curves_bend_little() {
-    let folder = tempfile::tempdir().unwrap();
-    let rows = chart(folder.path());
+    let rows = chart();
     for curve in rows.chunk_by(|a, b| a.kind == b.kind && a.alpha == b.alpha) {
         for three in curve.windows(3) {
             for k in 1..5 {

@@ -1,10 +1,7 @@
 //! Every job ends: by the bound on work, the same bytes on any number of threads; by a time limit
 //! and ^C, and it is marked.
 
-use std::{
-    path::Path,
-    process::{Command, Output},
-};
+use std::process::Command;
 
 use cases::Case;
 use serde_json::Value;
@@ -14,45 +11,36 @@ use strong_motion::Record;
 #[path = "support/program.rs"]
 mod program;
 
+use program::{Ended, TestFolder, finding};
+
 /// Light, with the inertia of a heavy one, and another restitution than equation 2's: a search over
 /// all parameters.
 const SLOW: &str = "[structure]\nkind = 'aframe'\nheight_m = 61.0\nwidth_m = 12.2\nmass_kg = 2.0\n\
     rotational_inertia_kgm2 = 413464.8\nrestitution_ratio = 0.95\n\n[record]\nduration_s = 3.0\n";
 const PIER: &str = include_str!("../tuning/pier.toml");
 
-fn command(folder: &Path, arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_tune"));
-    command.current_dir(folder).args(["run"]).args(arguments).args([
-        "--quiet",
-        "--no-figures",
-        "--no-report",
-    ]);
-    command
+/// A run, without what takes time to write.
+fn run(folder: &TestFolder, options: &str) -> Command {
+    let line = format!("run {options} --quiet --no-figures --no-report");
+    program::command(&folder.path(""), &line)
 }
 
-fn folder_with(text: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("case.toml"), text).unwrap();
-    folder
+fn ended(folder: &TestFolder, options: &str) -> Ended {
+    run(folder, options).output().unwrap().into()
 }
 
-fn stderr(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
+fn folder_with(text: &str) -> TestFolder {
+    TestFolder::with(&[("case.toml", text)])
 }
 
 /// What is in the folder of the results, which must be whole.
-fn parameters(folder: &Path) -> Value {
-    let out = folder.join("out");
-    let names: Vec<String> = std::fs::read_dir(&out)
+fn parameters(folder: &TestFolder) -> Value {
+    let names: Vec<String> = std::fs::read_dir(folder.path("out"))
         .unwrap()
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
         .collect();
     assert!(names.iter().all(|name| !name.contains("UNFINISHED")), "{names:?}");
-    serde_json::from_slice(&std::fs::read(out.join("parameters.json")).unwrap()).unwrap()
-}
-
-fn finding<'a>(parameters: &'a Value, name: &str) -> Option<&'a Value> {
-    parameters["findings"].as_array()?.iter().find(|finding| finding["finding"] == name)
+    folder.json("out/parameters.json")
 }
 
 /// The finding of a search that was cut: a warning with what was not done and what to do.
@@ -75,14 +63,14 @@ fn springs(parameters: &Value) -> f64 {
 fn a_search_that_meets_its_bound_has_the_same_bytes_on_one_thread_and_on_two() {
     let results = ["1", "2"].map(|threads| {
         let folder = folder_with(SLOW);
-        let mut command = command(folder.path(), &["case.toml", "--work", "0.05"]);
+        let mut command = run(&folder, "case.toml --work 0.05");
         let ran = command.env("RAYON_NUM_THREADS", threads).output().unwrap();
-        assert!(ran.status.success(), "{}", stderr(&ran));
-        let parameters = parameters(folder.path());
+        let ran = Ended::from(ran).well();
+        let parameters = parameters(&folder);
         cut(&parameters, "work");
         assert!(springs(&parameters) > 0.0);
         let files = ["parameters.json", "history.csv", "members.csv", "decks/model_openseespy.py"];
-        let bytes = files.map(|name| std::fs::read(folder.path().join("out").join(name)).unwrap());
+        let bytes = files.map(|name| folder.bytes(&format!("out/{name}")));
         (bytes, ran.stdout)
     });
     assert!(results[0] == results[1]);
@@ -90,32 +78,24 @@ fn a_search_that_meets_its_bound_has_the_same_bytes_on_one_thread_and_on_two() {
 
 #[test]
 fn a_tiny_bound_leaves_the_best_springs_so_far_and_says_what_was_not_done() {
-    let folder = tempfile::tempdir().unwrap();
-    let ran = command(folder.path(), &["--work", "1e-9"]).output().unwrap();
-    assert!(ran.status.success(), "{}", stderr(&ran));
-    let parameters = parameters(folder.path());
-    cut(&parameters, "work");
+    let folder = TestFolder::with(&[]);
+    let ran = ended(&folder, "--work 1e-9").well();
+    let found = parameters(&folder);
+    cut(&found, "work");
     // one rung, measured on all suites
-    let cut = finding(&parameters, "search_cut").unwrap();
+    let cut = finding(&found, "search_cut").unwrap();
     assert!(cut["stiffnesses"] == 1 && cut["reached"].as_f64().unwrap() > 0.0, "{cut}");
-    assert!(
-        String::from_utf8_lossy(&ran.stdout)
-            .contains("The bound on work ended the search after 1 stiffness")
-    );
+    assert!(ran.stdout.contains("The bound on work ended the search after 1 stiffness"));
     // more work, and nothing is cut
-    let ran = command(folder.path(), &["--work", "10"]).output().unwrap();
-    assert!(ran.status.success(), "{}", stderr(&ran));
-    assert!(finding(&self::parameters(folder.path()), "search_cut").is_none());
+    ended(&folder, "--work 10").well();
+    assert!(finding(&parameters(&folder), "search_cut").is_none());
 }
 
 #[test]
 fn motions_whose_references_meet_their_bound_are_left_out_and_told() {
     let folder = folder_with(PIER);
-    let ran = command(folder.path(), &["case.toml", "--work", "0.02", "--duration", "5"])
-        .output()
-        .unwrap();
-    assert!(ran.status.success(), "{}", stderr(&ran));
-    let parameters = parameters(folder.path());
+    ended(&folder, "case.toml --work 0.02 --duration 5").well();
+    let parameters = parameters(&folder);
     let told = finding(&parameters, "histories_unfinished")
         .unwrap_or_else(|| panic!("{:#}", parameters["findings"]));
     assert!(
@@ -135,18 +115,13 @@ fn a_time_limit_ends_a_search_and_is_marked() {
         "[structure]\nkind = 'block'\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 100.0\n",
     ] {
         let folder = folder_with(text);
-        let arguments = ["case.toml", "--time-limit", "0.001", "--duration", "3"];
-        let ran = command(folder.path(), &arguments).output().unwrap();
-        assert!(ran.status.success(), "{}", stderr(&ran));
-        let parameters = parameters(folder.path());
+        let ran = ended(&folder, "case.toml --time-limit 0.001 --duration 3").well();
+        let parameters = parameters(&folder);
         cut(&parameters, "time_limit");
         assert_eq!(parameters["assessment"]["reached"], false, "{text}");
         // what was cut is on the screen, and the springs are those of the file
-        assert!(
-            String::from_utf8_lossy(&ran.stdout).contains("The time limit ended the search"),
-            "{text}"
-        );
-        assert!(folder.path().join("out/decks/model_openseespy.py").exists());
+        assert!(ran.stdout.contains("The time limit ended the search"), "{text}");
+        assert!(folder.has("out/decks/model_openseespy.py"));
     }
 }
 
@@ -158,7 +133,7 @@ fn an_interrupt_leaves_whole_results_that_are_marked_and_an_exit_code_of_its_own
     // however slow the machine: once the program has begun
     for wait in [0.5, 2.0, 8.0, 30.0] {
         let folder = folder_with(SLOW);
-        let mut command = command(folder.path(), &["case.toml", "--work", "1e6"]);
+        let mut command = run(&folder, "case.toml --work 1e6");
         let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
         std::thread::sleep(Duration::from_secs_f64(wait));
         assert!(
@@ -171,14 +146,13 @@ fn an_interrupt_leaves_whole_results_that_are_marked_and_an_exit_code_of_its_own
         let ended = child.wait_with_output().unwrap();
         if ended.status.signal().is_some() {
             // it had not begun: nothing is there
-            assert!(!folder.path().join("out").exists());
+            assert!(!folder.has("out"));
             continue;
         }
-        assert_eq!(ended.status.code(), Some(130), "{}", stderr(&ended));
-        assert!(
-            stderr(&ended).contains("error: ^C ended the search; out has the best springs so far")
-        );
-        cut(&parameters(folder.path()), "interrupt");
+        let Ended { code, stderr, .. } = ended.into();
+        assert_eq!(code, Some(130), "{stderr}");
+        assert!(stderr.contains("error: ^C ended the search; out has the best springs so far"));
+        cut(&parameters(&folder), "interrupt");
         return;
     }
     panic!("it never began");
@@ -196,28 +170,20 @@ fn what_is_out_of_reach_is_refused_early_with_the_reason() {
     );
 
     let folder = folder_with(PIER);
-    let ran = command(folder.path(), &["case.toml", "--work", "1e-4"]).output().unwrap();
-    let said = stderr(&ran);
-    assert_eq!(ran.status.code(), Some(2), "{said}");
-    assert!(
-        said.trim_end().lines().count() == 1
-            && said.contains("out of reach")
-            && said.contains("--work"),
-        "{said}"
-    );
-    assert!(!folder.path().join("out").exists());
+    let said = ended(&folder, "case.toml --work 1e-4").refusal();
+    assert!(said.contains("out of reach") && said.contains("--work"), "{said}");
+    assert!(!folder.has("out"));
 }
 
 /// A block on a vertical motion of 1.84 g: what a deck ends early by is whole in the report, and
 /// near landings the block bears what the springs' own forces say at that instant.
 #[test]
 fn a_deck_that_ends_early_is_told_in_the_report() {
-    let folder = tempfile::tempdir().unwrap();
-    let (screen, report) = vertical(folder.path(), 0.45, 1.0);
+    let (screen, report, folder) = vertical(0.45, 1.0);
     assert!(report.contains("Decks that are left out or end early"), "{screen}");
     assert!(report.contains("the motion can be predicted to 48.34 s"), "{screen}");
     assert!(screen.contains("axial compression  17.13 kN at 49.14 s"), "{screen}");
-    let members = std::fs::read_to_string(folder.path().join("out/members.csv")).unwrap();
+    let members = folder.text("out/members.csv");
     let row = members.lines().find(|row| row.starts_with("49.14")).unwrap();
     let axial: f64 = row.split(',').nth(2).unwrap().parse().unwrap();
     assert!((axial / -17.13e3 - 1.0).abs() < 1e-3, "{row}");
@@ -227,29 +193,26 @@ fn a_deck_that_ends_early_is_told_in_the_report() {
 /// earthquake-like motions is said unasked.
 #[test]
 fn a_motion_of_nanometres_is_not_called_rocking() {
-    let folder = tempfile::tempdir().unwrap();
-    let (screen, _) = vertical(folder.path(), 1.2, 0.5);
+    let (screen, ..) = vertical(1.2, 0.5);
     assert!(screen.contains("It lifts, but does not rock to speak of"), "{screen}");
     assert!(!screen.contains("Ill-conditioned") && !screen.contains("1000 %"), "{screen}");
     assert!(screen.contains("nothing rocks"), "{screen}");
     assert!(screen.contains("1 ms steps: on earthquakes top "), "{screen}");
 }
 
-/// Screen and report of a block of 2.1 m and 640 kg on the record of Te Mara Farm.
-fn vertical(folder: &std::path::Path, width: f64, scale: f64) -> (String, String) {
-    let record = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/records/20161113_110259_WTMC_20.V2A");
+/// Screen and report of a block of 2.1 m and 640 kg on the record of Te Mara Farm, and the folder.
+fn vertical(width: f64, scale: f64) -> (String, String, TestFolder) {
+    let record = program::TE_MARA;
     let case = format!(
         "[structure]\nkind = 'block'\nheight_m = 1.05\nwidth_m = {width}\nmass_kg = 640\n\
          [record]\nfile = '{record}'\nvertical = 'auto'\nscale = {scale:?}\nduration_s = 90\n"
     );
-    std::fs::write(folder.join("case.toml"), case).unwrap();
-    let run = ["run", "case.toml", "--quiet", "--no-figures", "--no-front"];
-    let ran = program::tune(folder, &run);
-    assert!(ran.status.success(), "{}", String::from_utf8_lossy(&ran.stderr));
-    let report = std::fs::read_to_string(folder.join("out/report.html")).unwrap();
+    let folder = folder_with(&case);
+    let screen = folder.runs("run case.toml --quiet --no-figures --no-front").stdout;
+    let report = folder.text("out/report.html");
     // without the marks that keep numbers and units together
     let report = report.replace("<span class=\"q\">", "").replace("</span>", "");
-    (String::from_utf8_lossy(&ran.stdout).into_owned(), report)
+    (screen, report, folder)
 }
 
 /// The paper's frame moves furthest at 9.59 s: cut shortly before, a record ends in the swing.
@@ -257,10 +220,8 @@ fn vertical(folder: &std::path::Path, width: f64, scale: f64) -> (String, String
 fn a_record_cut_in_the_largest_swing_is_told() {
     let told = |duration: &str| {
         let folder = folder_with("");
-        let output = command(folder.path(), &["--duration", duration]).output();
-        assert!(output.as_ref().is_ok_and(|output| output.status.success()), "{output:?}");
-        let findings = parameters(folder.path())["findings"].clone();
-        findings.as_array().unwrap().iter().any(|found| found["finding"] == "cut_at_largest")
+        ended(&folder, &format!("--duration {duration}")).well();
+        finding(&parameters(&folder), "cut_at_largest").is_some()
     };
     assert!(told("9.5") && !told("12"));
 }

@@ -1,56 +1,49 @@
 //! What `tune run` used is what later commands use, and what they say they use.
 
-use std::{fs, path::Path, process::Output};
-
 use serde_json::Value;
 use strong_motion::Record;
-use tempfile::TempDir;
 
 #[path = "support/program.rs"]
 mod program;
 
-fn tune(dir: &Path, args: &[&str]) -> Output {
-    let output = program::tune(dir, args);
-    assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
-    output
-}
-
-fn json(bytes: &[u8]) -> Value {
-    serde_json::from_slice(bytes).unwrap()
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
-}
+use program::{Ended, TestFolder};
 
 /// A folder with a case beside a record in cm/s2: El Centro, 12 s of it.
-fn folder() -> TempDir {
-    let dir = TempDir::new().unwrap();
+fn folder() -> TestFolder {
     let accel = Record::el_centro().truncated(12.0).accel;
     let column: String = accel.iter().map(|a| format!("{:e}\n", a * 100.0)).collect();
-    fs::create_dir(dir.path().join("motions")).unwrap();
-    fs::write(dir.path().join("motions/centro.txt"), format!("# units: cm/s2\n{column}")).unwrap();
     let case = "[structure]\nkind = \"aframe\"\nheight_m = 61.0\nwidth_m = 12.2\n\
         mass_kg = 680.1e3\n[record]\nfile = \"motions/centro.txt\"\ndt_s = 0.01\nscale = 1.5\n\
         duration_s = 8.0\n[tuning]\nobjective = \"arr\"\nmax_omega_hz = 40.0\ncandidates = 2\n";
-    fs::write(dir.path().join("case.toml"), case).unwrap();
-    dir
+    TestFolder::with(&[
+        ("motions/", ""),
+        ("motions/centro.txt", &format!("# units: cm/s2\n{column}")),
+        ("case.toml", case),
+    ])
 }
 
-const RUN: [&str; 6] = ["run", "case.toml", "--quiet", "--no-figures", "--no-front", "--out"];
+/// The same, and the case's run in `out`.
+fn folder_of_run() -> TestFolder {
+    let folder = folder();
+    folder.runs(&format!("{RUN} out"));
+    folder
+}
+
+const RUN: &str = "run case.toml --quiet --no-figures --no-front --out";
+const EXPORT: &str = "export --parameters out/parameters.json";
 
 /// What a run prints, its lines joined.
-fn screen(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stdout).split_whitespace().collect::<Vec<_>>().join(" ")
+fn screen(ended: &Ended) -> String {
+    ended.stdout.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 #[test]
 fn record_scale_and_duration_are_remembered_until_told_otherwise() {
     let dir = folder();
-    let run = tune(dir.path(), &[&RUN[..], &["out"]].concat());
+    let run = dir.runs(&format!("{RUN} out"));
     let used = "scale 1.5, 8 of 12 s, step 0.01 s, PGA 0.46";
     assert!(screen(&run).contains(used), "{}", screen(&run));
-    let parameters = json(&fs::read(dir.path().join("out/parameters.json")).unwrap());
+    let parameters = dir.json("out/parameters.json");
     let row = &parameters["record"];
     assert_eq!(
         (&parameters["schema"], &row["scale"], &row["duration_s"]),
@@ -63,38 +56,28 @@ fn record_scale_and_duration_are_remembered_until_told_otherwise() {
     assert!(parameters["conditioning"]["well_conditioned"].is_boolean());
 
     // from elsewhere, with nothing said
-    let elsewhere = dir.path().join("elsewhere");
-    fs::create_dir(&elsewhere).unwrap();
-    let simulate = ["simulate", "--parameters", "../out/parameters.json"];
-    let output = tune(&elsewhere, &simulate);
+    dir.write("elsewhere/", "");
+    let elsewhere = |line: &str| {
+        let (command, more) = line.split_once(' ').unwrap_or((line, ""));
+        let line = format!("{command} --parameters ../out/parameters.json {more}");
+        program::tune(&dir.path("elsewhere"), &line).well()
+    };
+    let Ended { stdout, stderr, .. } = elsewhere("simulate");
     let used = "scale 1.5, first 8 s of 12 s: 801 samples of 0.01 s, PGA 0.46";
-    assert!(stderr(&output).contains(used), "{}", stderr(&output));
-    let found = json(&output.stdout);
+    assert!(stderr.contains(used), "{stderr}");
+    let found: Value = serde_json::from_str(&stdout).unwrap();
     for key in
         ["duration_s", "nrmse_horizontal", "nrmse_vertical", "impacts_fem", "peak_horizontal_fem_m"]
     {
         assert_eq!(found[key], parameters["match"][key], "{key}");
     }
-    let export = [
-        "export",
-        "--parameters",
-        "../out/parameters.json",
-        "--format",
-        "markdown",
-        "--out",
-        "springs.md",
-    ];
-    assert!(stderr(&tune(&elsewhere, &export)).contains(used));
+    assert!(elsewhere("export --format markdown --out springs.md").stderr.contains(used));
 
     // a scale replaces the remembered one, and another record comes whole and unscaled
-    let again =
-        stderr(&tune(&elsewhere, &[&simulate[..], &["--scale", "1", "--duration", "6"]].concat()));
-    assert!(
-        again.contains("centro.txt, in cm/s2), scale 1, first 6 s of 12 s: 601 samples"),
-        "{again}"
-    );
-    let other = ["--record", "../motions/centro.txt", "--dt", "0.01"];
-    let other = stderr(&tune(&elsewhere, &[&simulate[..], &other].concat()));
+    let again = elsewhere("simulate --scale 1 --duration 6").stderr;
+    let used = "centro.txt, in cm/s2), scale 1, first 6 s of 12 s: 601 samples";
+    assert!(again.contains(used), "{again}");
+    let other = elsewhere("simulate --record ../motions/centro.txt --dt 0.01").stderr;
     assert!(other.contains("scale 1, all 12 s: 1201 samples"), "{other}");
 }
 
@@ -102,65 +85,57 @@ fn record_scale_and_duration_are_remembered_until_told_otherwise() {
 /// beside it, and has Housner's answer to it elsewhere.
 #[test]
 fn a_sheet_brings_its_ground_motion_and_leaves_that_of_another() {
-    let dir = folder();
-    tune(dir.path(), &[&RUN[..], &["out"]].concat());
-    let sheet = ["export", "--parameters", "out/parameters.json", "--format", "sap2000-sheet"];
-    tune(dir.path(), &[&sheet[..], &["--out", "sheets/"]].concat());
-    let read = |path: &str| fs::read(dir.path().join(path)).unwrap();
-    for file in ["sap2000_by_hand.txt", "ground_motion.txt"] {
-        assert_eq!(read(&format!("sheets/{file}")), read(&format!("out/decks/{file}")), "{file}");
-    }
+    let dir = folder_of_run();
+    let sheet = |more: &str| format!("{EXPORT} --format sap2000-sheet {more}");
+    dir.runs(&sheet("--out sheets/"));
+    let same = |file: &str| {
+        let [own, deck] = ["sheets", "out/decks"].map(|f| dir.bytes(&format!("{f}/{file}")));
+        assert!(own == deck, "{file}");
+    };
+    same("sap2000_by_hand.txt");
+    same("ground_motion.txt");
     // tables under their own names, too
     for (stepping, file) in [("events", "springs.csv"), ("even", "springs_even.csv")] {
-        let table = ["export", "--parameters", "out/parameters.json", "--format", "csv"];
-        let rest = ["--stepping", stepping, "--out", "sheets/"];
-        tune(dir.path(), &[&table[..], &rest].concat());
-        assert_eq!(read(&format!("sheets/{file}")), read(&format!("out/decks/{file}")), "{file}");
+        dir.runs(&format!("{EXPORT} --format csv --stepping {stepping} --out sheets/"));
+        same(file);
     }
-    let other = [&sheet[..], &["--scale", "0.5", "--out", "sheets/half.txt"]].concat();
-    let output = program::tune(dir.path(), &other);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("is not the ground motion of this sheet"), "{output:?}");
-    assert!(!dir.path().join("sheets/half.txt").exists());
-    assert_eq!(read("sheets/ground_motion.txt"), read("out/decks/ground_motion.txt"));
-    let other = [&sheet[..], &["--scale", "0.9", "--out", "other/"]].concat();
-    tune(dir.path(), &other);
-    let housner = |path: &str| {
-        let sheet = String::from_utf8(read(path)).unwrap();
+    let refused = dir.refuses(&sheet("--scale 0.5 --out sheets/half.txt"));
+    assert!(refused.contains("is not the ground motion of this sheet"), "{refused}");
+    assert!(!dir.has("sheets/half.txt"));
+    same("ground_motion.txt");
+    dir.runs(&sheet("--scale 0.9 --out other/"));
+    let housner = |folder: &str| {
+        let sheet = dir.text(&format!("{folder}/sap2000_by_hand.txt"));
         sheet.lines().find(|line| line.trim_start().starts_with("Housner:")).map(str::to_string)
     };
-    let [own, scaled] = ["sheets", "other"].map(|f| housner(&format!("{f}/sap2000_by_hand.txt")));
+    let [own, scaled] = ["sheets", "other"].map(housner);
     assert!(own.is_some() && scaled.is_some() && own != scaled, "{own:?} {scaled:?}");
     // SAP2000 takes no steps that follow touches
-    let events = [&sheet[..], &["--stepping", "events", "--out", "events/"]].concat();
-    let output = program::tune(dir.path(), &events);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("give --stepping even"), "{output:?}");
-    assert!(!dir.path().join("events").exists());
+    let refused = dir.refuses(&sheet("--stepping events --out events/"));
+    assert!(refused.contains("give --stepping even"), "{refused}");
+    assert!(!dir.has("events"));
 }
 
 #[test]
 fn a_scale_on_the_command_line_replaces_the_cases() {
     let dir = folder();
-    let run = tune(dir.path(), &[&RUN[..], &["given", "--scale", "1.5"]].concat());
-    assert!(screen(&run).contains("scale 1.5, 8 of 12 s, step 0.01 s"), "{}", screen(&run));
-    let plain = tune(dir.path(), &[&RUN[..], &["plain"]].concat());
+    let given = screen(&dir.runs(&format!("{RUN} given --scale 1.5")));
+    assert!(given.contains("scale 1.5, 8 of 12 s, step 0.01 s"), "{given}");
+    let plain = screen(&dir.runs(&format!("{RUN} plain")));
     // the same screen but for the folder in its commands
-    assert_eq!(screen(&run).replace("given/", "F/"), screen(&plain).replace("plain/", "F/"));
-    let doubled =
-        stderr(&tune(dir.path(), &["housner", "case.toml", "--scale", "2", "--out", "h.csv"]));
+    assert_eq!(given.replace("given/", "F/"), plain.replace("plain/", "F/"));
+    let doubled = dir.runs("housner case.toml --scale 2 --out h.csv").stderr;
     assert!(doubled.contains("scale 2, first 8 s of 12 s: 801 samples"), "{doubled}");
 }
 
 #[test]
 fn the_paper_case_keeps_its_20_s_and_any_other_record_is_used_whole() {
     let dir = folder();
-    let paper = stderr(&tune(dir.path(), &["housner", "--out", "h.csv"]));
+    let paper = dir.runs("housner --out h.csv").stderr;
     let used = "record IELC180 (embedded), scale 1, first 20 s of 39.94 s: 2001 samples of 0.01 s, \
         PGA 0.3129 g at ";
     assert!(paper.contains(used), "{paper}");
-    let other = ["housner", "--record", "motions/centro.txt", "--dt", "0.01", "--out", "h.csv"];
-    let other = stderr(&tune(dir.path(), &other));
+    let other = dir.runs("housner --record motions/centro.txt --dt 0.01 --out h.csv").stderr;
     assert!(other.contains("centro.txt, in cm/s2), scale 1, all 12 s: 1201 samples"), "{other}");
 }
 
@@ -169,42 +144,31 @@ fn the_paper_case_keeps_its_20_s_and_any_other_record_is_used_whole() {
 /// meaning.
 #[test]
 fn a_body_that_overturns_is_compared_up_to_there() {
-    let dir = folder();
-    tune(dir.path(), &[&RUN[..], &["out"]].concat());
-    fs::write(dir.path().join("push.txt"), "1.4715\n".repeat(2000)).unwrap();
-    let push = ["--record", "push.txt", "--dt", "0.01", "--units", "m/s2"];
-    let output = tune(
-        dir.path(),
-        &[&["simulate", "--parameters", "out/parameters.json"][..], &push].concat(),
-    );
-    let (found, said) = (json(&output.stdout), stderr(&output));
+    let dir = folder_of_run();
+    dir.write("push.txt", "1.4715\n".repeat(2000));
+    let push = "--record push.txt --dt 0.01 --units m/s2";
+    let Ended { stdout, stderr: said, .. } =
+        dir.runs(&format!("simulate --parameters out/parameters.json {push}"));
+    let found: Value = serde_json::from_str(&stdout).unwrap();
     let time = found["overturned_housner_s"].as_f64().unwrap();
     assert!((time - 4.4).abs() < 0.1 && found["duration_s"].as_f64().unwrap() <= time, "{found}");
     // from rest to alpha: h sin(alpha) + b (1 - cos(alpha)) = 6.1 m is the most that counts
     assert!(found["peak_horizontal_housner_m"].as_f64().unwrap().abs() < 6.1, "{found}");
     assert!(found["nrmse_horizontal"].as_f64().unwrap() < 2.0, "{found}");
-    assert!(
-        said.contains("the structure overturns at t = ")
-            && said.contains("numbers count up to then"),
-        "{said}"
-    );
+    for words in ["the structure overturns at t = ", "numbers count up to then"] {
+        assert!(said.contains(words), "{said}");
+    }
     assert!(!said.contains("inf") && !said.contains("NaN"), "{said}");
 }
 
 #[test]
 fn springs_are_made_without_a_record_and_are_those_that_a_record_too_weak_to_lift_gives() {
     let dir = folder();
-    let run = tune(dir.path(), &["run", "--no-record", "--quiet", "--out", "none"]);
-    assert!(stderr(&run).contains("no record"), "{}", stderr(&run));
-    let weak = ["run", "--scale", "0.1", "--quiet", "--no-figures", "--no-front", "--out", "weak"];
-    let output = tune(dir.path(), &weak);
-    assert!(
-        String::from_utf8_lossy(&output.stdout).contains("does not lift the structure"),
-        "{output:?}"
-    );
-    let read =
-        |folder: &str| json(&fs::read(dir.path().join(folder).join("parameters.json")).unwrap());
-    let (none, weak) = (read("none"), read("weak"));
+    let run = dir.runs("run --no-record --quiet --out none").stderr;
+    assert!(run.contains("no record"), "{run}");
+    let weak = dir.runs("run --scale 0.1 --quiet --no-figures --no-front --out weak").stdout;
+    assert!(weak.contains("does not lift the structure"), "{weak}");
+    let [none, weak] = ["none", "weak"].map(|f| dir.json(&format!("{f}/parameters.json")));
     for key in ["vertical", "horizontal", "assessment", "landings"] {
         assert_eq!(none[key], weak[key], "{key}");
     }
@@ -216,39 +180,31 @@ fn springs_are_made_without_a_record_and_are_those_that_a_record_too_weak_to_lif
 #[test]
 fn the_own_record_is_read_again_as_the_options_say() {
     let dir = folder();
-    let record = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/records/20180212_211557_WPWS_20.V2A");
-    let more = ["out", "--record", record, "--scale", "20"];
-    tune(dir.path(), &[&RUN[..], &more].concat());
-    let parameters = "out/parameters.json";
-    let export = ["export", "--parameters", parameters, "--format", "openseespy", "--out", "a.py"];
-    let told = |more: &[&str]| stderr(&tune(dir.path(), &[&export[..], more].concat()));
-    let own = told(&[]);
+    dir.runs(&format!("{RUN} out --record '{}' --scale 20", program::WAIPAWA));
+    let told =
+        |more: &str| dir.runs(&format!("{EXPORT} --format openseespy --out a.py {more}")).stderr;
+    let own = told("");
     assert!(!own.contains("CHECK") && !own.contains("vertical"), "{own}");
-    let vertical = told(&["--vertical", "auto"]);
+    let vertical = told("--vertical auto");
     assert!(vertical.contains("S74E") && vertical.contains("vertical"), "{vertical}");
-    let other = told(&["--component", "S16W"]);
+    let other = told("--component S16W");
     assert!(other.contains("S16W"), "{other}");
-    let short = told(&["--duration", "0.5"]);
+    let short = told("--duration 0.5");
     assert!(short.contains("CHECK ") && short.contains("use more of the record"), "{short}");
 }
 
 /// A deck does not replace what it is made from.
 #[test]
 fn what_is_read_is_not_written_over() {
-    let dir = folder();
-    tune(dir.path(), &[&RUN[..], &["out"]].concat());
+    let dir = folder_of_run();
     for (out, what) in [
         ("out/../out/parameters.json", "is a file that this command reads"),
         ("motions/centro.txt", "is a file that this command reads"),
         ("case.toml", "is a case file"),
     ] {
-        let before = fs::read(dir.path().join(out)).unwrap();
-        let export =
-            ["export", "--parameters", "out/parameters.json", "--format", "csv", "--out", out];
-        let refused = program::tune(dir.path(), &export);
-        assert_eq!(refused.status.code(), Some(2));
-        let told = stderr(&refused);
+        let before = dir.bytes(out);
+        let told = dir.refuses(&format!("{EXPORT} --format csv --out {out}"));
         assert!(told.contains(what) && told.contains("name another file with --out"), "{told}");
-        assert_eq!(fs::read(dir.path().join(out)).unwrap(), before);
+        assert_eq!(dir.bytes(out), before);
     }
 }

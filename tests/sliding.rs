@@ -6,22 +6,16 @@ use strong_motion::Record;
 #[path = "support/program.rs"]
 mod program;
 
+use program::{TestFolder, finding};
+
 const GRAVITY: f64 = 9.81;
 
 /// What `tune run` prints, its parameters, and its summary.csv.
-fn run(case: &str, options: &[&str]) -> (String, Value, String) {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("case.toml"), case).unwrap();
-    let run = ["run", "case.toml", "--quiet", "--no-figures", "--no-report"];
-    let ran = program::tune(folder.path(), &[&run, options].concat());
-    assert!(ran.status.success(), "{}", String::from_utf8_lossy(&ran.stderr));
-    let read = |name: &str| std::fs::read_to_string(folder.path().join("out").join(name)).unwrap();
-    let parameters = serde_json::from_str(&read("parameters.json")).unwrap();
-    (String::from_utf8(ran.stdout).unwrap(), parameters, read("summary.csv"))
-}
-
-fn finding<'a>(parameters: &'a Value, name: &str) -> Option<&'a Value> {
-    parameters["findings"].as_array().unwrap().iter().find(|found| found["finding"] == name)
+fn run(case: &str, options: &str) -> (String, Value, String) {
+    let folder = TestFolder::with(&[("case.toml", case)]);
+    let run = format!("run case.toml --quiet --no-figures --no-report {options}");
+    let screen = folder.runs(&run).stdout;
+    (screen, folder.json("out/parameters.json"), folder.text("out/summary.csv"))
 }
 
 /// Largest slip and where it ends (m): Newmark's block on a plane, r'' = -ug'' - mu g sgn(r').
@@ -54,7 +48,7 @@ fn block_on_a_plane(record: &Record, friction: f64) -> [f64; 2] {
 fn a_block_that_slides_is_newmarks() {
     let case = "[structure]\nkind = 'block'\ntotal_height_m = 1.9\nwidth_m = 0.38\n\
         mass_kg = 350.0\n[friction]\ncoefficient = 0.15\n[record]\nscale = 1.3\n";
-    let (said, parameters, summary) = run(case, &[]);
+    let (said, parameters, summary) = run(case, "");
     assert!(said.contains("slides and does not rock"), "{said}");
     assert!(!said.contains("predictable to") && !said.contains("Ill-conditioned"), "{said}");
     let mut record = Record::el_centro();
@@ -81,18 +75,17 @@ fn a_block_that_slides_is_newmarks() {
 /// that slides its slip.
 #[test]
 fn a_vertical_motion_left_out_is_told_of_the_body_with_friction() {
-    let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/records/20161113_110259_WTMC_20.V2A");
+    let file = program::TE_MARA;
     let case = format!(
         "[structure]\nkind = 'block'\ntotal_height_m = 0.82\nwidth_m = 0.369\nmass_kg = 120.0\n\
          [friction]\ncoefficient = 0.42\n[record]\nfile = {file:?}\nduration_s = 70.0\n\
          scale = 0.8\n"
     );
-    let (_, without, _) = run(&case, &[]);
+    let (_, without, _) = run(&case, "");
     let told = finding(&without, "vertical_left_out").unwrap();
     let changes = told["changes"].as_array().unwrap();
     let top = changes.iter().find(|change| change["quantity"] == "top displacement").unwrap();
-    let (_, with, _) = run(&case, &["--vertical", "auto"]);
+    let (_, with, _) = run(&case, "--vertical auto");
     let taken = finding(&with, "slides").unwrap();
     for (found, of) in [("without", &without), ("with", &with)] {
         let due = of["peaks"]["with_members"]["top_displacement_m"].as_f64().unwrap();

@@ -1,28 +1,21 @@
 //! `tune sweep`: what its summary and tables say of small sweeps whose answers are known.
 
-use std::fs;
-
-use tempfile::TempDir;
-
 #[path = "support/program.rs"]
 mod program;
 
-use program::tune;
+use program::TestFolder;
 
 /// A folder in which a sweep ran, and its summary.
 struct SweepRun {
-    dir: TempDir,
+    dir: TestFolder,
     summary: String,
 }
 
 impl SweepRun {
     fn new(spec: &str, record: &str) -> Self {
-        let dir = TempDir::new().unwrap();
-        fs::write(dir.path().join("sweep.toml"), spec).unwrap();
-        fs::write(dir.path().join("record.csv"), record).unwrap();
-        let ran = tune(dir.path(), &["sweep", "sweep.toml", "--out", "out", "--quiet"]);
-        assert!(ran.status.success(), "{ran:?}");
-        let summary = fs::read_to_string(dir.path().join("out/summary.md")).unwrap();
+        let dir = TestFolder::with(&[("sweep.toml", spec), ("record.csv", record)]);
+        dir.runs("sweep sweep.toml --out out --quiet");
+        let summary = dir.text("out/summary.md");
         Self { dir, summary }
     }
 
@@ -35,13 +28,13 @@ impl SweepRun {
     }
 
     fn shows(&self, figure: &str, words: &str) {
-        let drawn = fs::read_to_string(self.dir.path().join("out").join(figure)).unwrap();
+        let drawn = self.dir.text(&format!("out/{figure}"));
         assert!(drawn.lines().any(|line| line == words), "{words} is not in {figure}");
     }
 
     /// The numbers of a column of a table.
     fn column(&self, table: &str, name: &str) -> Vec<f64> {
-        let text = fs::read_to_string(self.dir.path().join("out").join(table)).unwrap();
+        let text = self.dir.text(&format!("out/{table}"));
         let mut lines = text.lines();
         let place = lines.next().unwrap().split(',').position(|head| head == name).unwrap();
         // commas in names stand between quotation marks
@@ -151,7 +144,7 @@ fn a_structure_has_the_name_that_its_user_gives() {
     ran.says("- cabinet <1>, \"left\", by Housner's equation");
     ran.says("- block R 1.031 m, alpha 0.245, by Housner's equation");
     ran.shows("ida.svg", "cabinet &lt;1&gt;, &quot;left&quot;");
-    let table = fs::read_to_string(ran.dir.path().join("out/ida.csv")).unwrap();
+    let table = ran.dir.text("out/ida.csv");
     assert!(table.contains("\"cabinet <1>, \"\"left\"\"\""), "{table}");
 }
 
@@ -199,11 +192,7 @@ fn springs_that_do_not_reach_their_accuracy_are_named_once_in_the_summary() {
 /// One motion of two has a vertical component; a body is lifted at g tan(alpha) without it alone.
 #[test]
 fn a_summary_tells_of_vertical_motion_and_of_friction() {
-    let files = concat!(
-        "files = [\"",
-        env!("CARGO_MANIFEST_DIR"),
-        "/tests/records/20161113_110259_WTMC_20.V2A\"]\nel_centro = true"
-    );
+    let files = format!("files = [{:?}]\nel_centro = true", program::TE_MARA);
     let friction = "friction coefficient of at least b/h = tan(alpha): 0.250. With less it slides";
     let up = fragility(&format!("{files}\nvertical = \"auto\""), "pga_g = [0.5]");
     up.says("Motions with a vertical component: 1 of 2; the others are horizontal.");

@@ -13,18 +13,12 @@ fn cases_and_parameters_in_other_encodings_or_none() {
     };
     let latin1 = [STRUCTURE.as_bytes(), b"# H\xf6he\n"].concat();
     for bytes in [&utf16(STRUCTURE), &latin1] {
-        refuses_bytes(
-            &[("c.toml", bytes)],
-            &["run", "c.toml", "--out", "o"],
-            &["c.toml: not a text file", "tune init"],
-        );
+        let words = ["c.toml: not a text file", "tune init"];
+        refuses_bytes(("c.toml", bytes), "run c.toml --out o", &words);
     }
-    let simulate = ["simulate", "--parameters", "p.json"];
-    refuses_bytes(
-        &[("p.json", &utf16(PARAMETERS))],
-        &simulate,
-        &["p.json: cannot be read", "UTF-8"],
-    );
+    let simulate = "simulate --parameters p.json";
+    let words = ["p.json: cannot be read", "UTF-8"];
+    refuses_bytes(("p.json", &utf16(PARAMETERS)), simulate, &words);
     for (text, word) in [
         (format!("{STRUCTURE}\0"), "c.toml, line 6"),
         (format!("\u{feff}{STRUCTURE}x = 1\n"), "c.toml, line 6: unknown key \"x\""),
@@ -34,7 +28,7 @@ fn cases_and_parameters_in_other_encodings_or_none() {
             "[structure] lacks kind (aframe, block, pier or frame), its sizes and its mass",
         ),
     ] {
-        refuses(&[("c.toml", &text)], &["run", "c.toml", "--out", "o"], &[word]);
+        refuses(&[("c.toml", &text)], "run c.toml --out o", &[word]);
     }
     let doubled =
         PARAMETERS.trim_end().strip_suffix('}').unwrap().to_owned() + ",\"structure\":{}}";
@@ -46,7 +40,7 @@ fn cases_and_parameters_in_other_encodings_or_none() {
         ("null".into(), "p.json, line 1"),
         (String::new(), "p.json, line 1"),
     ] {
-        refuses(&[("p.json", &text)], &simulate, &[word]);
+        refuses(&[("p.json", &text)], simulate, &[word]);
     }
 }
 
@@ -64,23 +58,23 @@ fn headers_that_cannot_be() {
         run_record(
             "a.at2",
             &format!("{}0.1 0.2 0.1 0.1\n", AT2.replace(from, to)),
-            &[],
+            "",
             &["a.at2", word],
         );
     }
     let whole = format!("{AT2}0.1 0.2 0.1 0.1\n");
-    run_record("a.at2", &whole, &["--units", "cm/s2"], &["its unit is g but --units is cm/s2"]);
-    run_record("a.at2", &whole, &["--dt", "0.02"], &["0.01 s but --dt is 0.02 s"]);
-    run_record("a.txt", "# unit: g\n# unit: cm/s2\n0.1\n0.2\n", &["--dt", "0.01"], &["--units"]);
+    run_record("a.at2", &whole, "--units cm/s2", &["its unit is g but --units is cm/s2"]);
+    run_record("a.at2", &whole, "--dt 0.02", &["0.01 s but --dt is 0.02 s"]);
+    run_record("a.txt", "# unit: g\n# unit: cm/s2\n0.1\n0.2\n", "--dt 0.01", &["--units"]);
 }
 
 #[test]
 fn columns_that_are_no_record() {
-    let units = ["--units", "g", "--dt", "0.01"];
-    run_record("one.txt", "0.9\n", &units, &["one holds 1 sample", "at least two"]);
-    run_record("inf.txt", "0.1\ninf\n", &units, &["inf.txt, line 2"]);
-    run_record("line.txt", &"1".repeat(1_000_000), &units, &["line.txt, line 1"]);
-    run_record("a.json", "{\"a\":[1,2]}", &units, &["holds no samples"]);
+    let units = "--units g --dt 0.01";
+    run_record("one.txt", "0.9\n", units, &["one holds 1 sample", "at least two"]);
+    run_record("inf.txt", "0.1\ninf\n", units, &["inf.txt, line 2"]);
+    run_record("line.txt", &"1".repeat(1_000_000), units, &["line.txt, line 1"]);
+    run_record("a.json", "{\"a\":[1,2]}", units, &["holds no samples"]);
     for (text, word) in [
         ("0.02,0.1\n0.01,0.2\n0.0,0.1\n", "line 2: the time falls from 0.02 to 0.01 s"),
         ("0,0.1\n0,0.2\n0,0.1\n", "line 2: the time step is 0.0 s"),
@@ -88,7 +82,7 @@ fn columns_that_are_no_record() {
         ("0,0.1,3\n0.01,0.2,3\n0.02,1,3\n", "3 columns"),
         ("0,0.1\n0.01\n0.02,1\n", "line 2: 1 columns"),
     ] {
-        run_record("a.csv", text, &["--units", "g"], &[word]);
+        run_record("a.csv", text, "--units g", &[word]);
     }
 }
 
@@ -153,24 +147,21 @@ fn values_of_the_wrong_type() {
 #[test]
 fn options_beyond_all_measure_or_given_twice() {
     for (args, word) in [
-        (&["run", "--duration", "1e9"][..], "--duration is 1000000000.0"),
-        (&["run", "--duration", "-1"], "--duration is -1"),
-        (&["run", "--duration", "1", "--duration", "2"], "multiple times"),
-        (&["run", "--peaks", "2"], "--peaks is 2.0; give an error of peaks between 1e-4 and 1"),
-        (
-            &["run", "--peaks", "0.02", "--accuracy", "0.01"],
-            "--peaks is 0.02; springs are chosen by",
-        ),
-        (&["run", "--accuracy", "2"], "--accuracy is 2.0; give an error between 1e-5 and 1"),
-        (&["run", "--max-hz", "1e300"], "--max-hz is 1e300"),
-        (&["run", "--jobs", "1.5"], "--jobs"),
-        (&["run", "--friction", "nan"], "--friction is NaN"),
-        (&["run", "--out", ""], "--out"),
-        (&["run", "--out", "/dev/null"], "/dev/null: is a file where a folder is needed"),
-        (&["housner", "a", "b"], "'b'"),
-        (&["response", "--mu", "1e-300"], "mu is 1e-300"),
-        (&["simulate"], "--parameters"),
-        (&["frobnicate"], "frobnicate"),
+        ("run --duration 1e9", "--duration is 1000000000.0"),
+        ("run --duration -1", "--duration is -1"),
+        ("run --duration 1 --duration 2", "multiple times"),
+        ("run --peaks 2", "--peaks is 2.0; give an error of peaks between 1e-4 and 1"),
+        ("run --peaks 0.02 --accuracy 0.01", "--peaks is 0.02; springs are chosen by"),
+        ("run --accuracy 2", "--accuracy is 2.0; give an error between 1e-5 and 1"),
+        ("run --max-hz 1e300", "--max-hz is 1e300"),
+        ("run --jobs 1.5", "--jobs"),
+        ("run --friction nan", "--friction is NaN"),
+        ("run --out ''", "--out"),
+        ("run --out /dev/null", "/dev/null: is a file where a folder is needed"),
+        ("housner a b", "'b'"),
+        ("response --mu 1e-300", "mu is 1e-300"),
+        ("simulate", "--parameters"),
+        ("frobnicate", "frobnicate"),
     ] {
         refuses(&[], args, &[word]);
     }
@@ -238,19 +229,18 @@ fn parameters_of_a_newer_program() {
 #[test]
 fn a_scale_for_a_remembered_record_that_cannot_be() {
     let file = [("p.json", PARAMETERS)];
-    let with = |more: &[&'static str]| [USERS[0], more].concat();
-    refuses(&file, &with(&["--scale", "nan"]), &["NaN"]);
-    refuses(&file, &with(&["--scale", "1e300"]), &["above 50 g"]);
-    refuses(&file, &with(&["--duration", "0"]), &["--duration is 0"]);
-    refuses(&file, &with(&["--units", "g"]), &["name it with --record"]);
+    let with = |more: &str| format!("{} {more}", USERS[0]);
+    refuses(&file, &with("--scale nan"), &["NaN"]);
+    refuses(&file, &with("--scale 1e300"), &["above 50 g"]);
+    refuses(&file, &with("--duration 0"), &["--duration is 0"]);
+    refuses(&file, &with("--units g"), &["name it with --record"]);
 }
 
 #[test]
 fn earthquakes_of_no_number() {
-    let validate =
-        |more: &[&'static str]| [&["validate", "--parameters", "p.json"][..], more].concat();
+    let validate = |more: &str| format!("validate --parameters p.json {more}");
     let file = [("p.json", PARAMETERS)];
-    refuses(&file, &validate(&["--earthquakes", "0"]), &["--earthquakes"]);
-    refuses(&file, &validate(&["--earthquakes", "many"]), &["many"]);
-    refuses(&file, &validate(&["--seed", "3"]), &["--earthquakes"]);
+    refuses(&file, &validate("--earthquakes 0"), &["--earthquakes"]);
+    refuses(&file, &validate("--earthquakes many"), &["many"]);
+    refuses(&file, &validate("--seed 3"), &["--earthquakes"]);
 }

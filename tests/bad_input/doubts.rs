@@ -11,43 +11,20 @@ const TABLE: &str =
     "t [s],a [g],b [g]\n0.00,0.1,0.2\n0.01,-0.1,-0.2\n0.02,0.05,0.1\n0.03,0.0,0.0\n";
 
 /// stderr of a command that ends well.
-fn accepts(files: &[(&str, &str)], args: &[&str]) -> String {
-    let dir = TempDir::new().unwrap();
-    files.iter().for_each(|(name, text)| fs::write(dir.path().join(name), text).unwrap());
-    let output = program::tune(dir.path(), args);
-    let stderr = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(0), "{args:?}: {stderr}");
-    stderr
+fn accepts(files: &[(&str, &str)], line: &str) -> String {
+    TestFolder::with(files).runs(line).stderr
 }
 
 /// Doubts of a run, as parameters.json has them: message and remedy. The screen warns of them.
-fn doubts(case: &str, more: &[&str]) -> Vec<String> {
-    let dir = TempDir::new().unwrap();
-    for (name, text) in [("case.toml", case), ("a.csv", TABLE)] {
-        fs::write(dir.path().join(name), text).unwrap();
-    }
-    let run = [
-        "run",
-        "case.toml",
-        "--quiet",
-        "--no-figures",
-        "--no-front",
-        "--no-report",
-        "--max-hz",
-        "60",
-    ];
-    let args = [&run[..], more].concat();
-    let output = program::tune(dir.path(), &args);
-    assert_eq!(output.status.code(), Some(0), "{output:?}");
-    let filed = fs::read_to_string(dir.path().join("out/parameters.json")).unwrap();
-    let filed: serde_json::Value = serde_json::from_str(&filed).unwrap();
+fn doubts(case: &str, more: &str) -> Vec<String> {
+    let dir = TestFolder::with(&[("case.toml", case), ("a.csv", TABLE)]);
+    let run = "run case.toml --quiet --no-figures --no-front --no-report --max-hz 60";
+    let screen = dir.runs(&format!("{run} {more}")).stdout;
+    let filed = dir.json("out/parameters.json");
     let findings = filed["findings"].as_array().unwrap();
     let doubts: Vec<_> = findings.iter().filter(|finding| finding["finding"] == "doubt").collect();
     assert!(doubts.iter().all(|doubt| doubt["weight"] == "warning"), "{doubts:?}");
-    assert!(
-        doubts.is_empty() || String::from_utf8_lossy(&output.stdout).contains("CHECK     "),
-        "{output:?}"
-    );
+    assert!(doubts.is_empty() || screen.contains("CHECK     "), "{screen}");
     let words = |doubt: &&serde_json::Value| {
         format!("{}; {}", doubt["message"].as_str().unwrap(), doubt["remedy"].as_str().unwrap())
     };
@@ -56,14 +33,14 @@ fn doubts(case: &str, more: &[&str]) -> Vec<String> {
 
 #[test]
 fn doubts_are_warnings() {
-    let short = ["--duration", "2"];
+    let short = "--duration 2";
     assert_eq!(
-        doubts(CABINET, &short),
+        doubts(CABINET, short),
         ["height_m = 1.9, of the centre of mass, makes a block 3.8 m tall; if 1.9 m is its total \
             height, write total_height_m = 1.9"]
     );
     let light = CABINET.replace("1.9", "1.0").replace("400.0", "0.4");
-    let found = doubts(&light, &short);
+    let found = doubts(&light, short);
     assert!(
         found.len() == 1
             && found[0]
@@ -71,14 +48,14 @@ fn doubts_are_warnings() {
         "{found:?}"
     );
     let plain = CABINET.replace("1.9", "1.0");
-    assert_eq!(doubts(&plain, &short), [] as [&str; 0]);
-    let found = doubts(&plain, &["--duration", "2", "--scale", "0.01"]);
+    assert_eq!(doubts(&plain, short), [] as [&str; 0]);
+    let found = doubts(&plain, "--duration 2 --scale 0.01");
     assert!(found.len() == 1 && found[0].contains("below 0.005 g; check the unit"), "{found:?}");
     // the part used is weak, the record is not
-    let found = doubts(&plain, &["--duration", "1", "--scale", "0.03"]);
+    let found = doubts(&plain, "--duration 1 --scale 0.03");
     let told = "the whole record has 0.009386 g; use more of the record (--duration, duration_s)";
     assert!(found.len() == 1 && found[0].ends_with(told), "{found:?}");
-    let found = doubts(&plain, &["--record", "a.csv", "--column", "a", "--duration", "90"]);
+    let found = doubts(&plain, "--record a.csv --column a --duration 90");
     assert_eq!(
         found,
         ["90 s are asked for, the record has 0.03 s; all of it is used; leave the duration out, \
@@ -92,20 +69,18 @@ fn a_column_is_taken_by_number_or_name_from_option_or_case() {
     let peak = |stderr: &str| {
         stderr.lines().find_map(|line| Some(line.split_once("PGA ")?.1[..6].to_owned()))
     };
-    for (args, pga) in [
-        (["--column", "2"], "0.1000"),
-        (["--column", "b"], "0.2000"),
-        (["--component", "column 3"], "0.2000"),
-    ] {
-        let args = [&["housner", "--record", "a.csv"], &args[..]].concat();
-        assert_eq!(peak(&accepts(&[("a.csv", TABLE)], &args)).as_deref(), Some(pga), "{args:?}");
+    for (more, pga) in
+        [("--column 2", "0.1000"), ("--column b", "0.2000"), ("--component 'column 3'", "0.2000")]
+    {
+        let line = format!("housner --record a.csv {more}");
+        assert_eq!(peak(&accepts(&[("a.csv", TABLE)], &line)).as_deref(), Some(pga), "{line}");
     }
     for (column, pga) in [("2", "0.1000"), ("\"b\"", "0.2000")] {
         let case = format!("{STRUCTURE}[record]\nfile = \"a.csv\"\ncolumn = {column}\n");
         let files = [("case.toml", case.as_str()), ("a.csv", TABLE)];
-        assert_eq!(peak(&accepts(&files, &["housner", "case.toml"])).as_deref(), Some(pga));
+        assert_eq!(peak(&accepts(&files, "housner case.toml")).as_deref(), Some(pga));
         // an option goes before the case
-        let said = accepts(&files, &["housner", "case.toml", "--column", "a"]);
+        let said = accepts(&files, "housner case.toml --column a");
         assert_eq!(peak(&said).as_deref(), Some("0.1000"), "{said}");
     }
 }
@@ -113,14 +88,13 @@ fn a_column_is_taken_by_number_or_name_from_option_or_case() {
 #[test]
 fn bare_values_read_row_by_row_are_said() {
     let values = "0.1 -0.2 0.3\n-0.1 0.2 -0.3\n0.2 -0.1 0.1\n0.1 0.3 0.2\n";
-    let options = ["--record", "a.txt", "--dt", "0.01", "--units", "g"];
-    let said = accepts(&[("a.txt", values)], &[&["housner"], &options[..]].concat());
+    let options = "--record a.txt --dt 0.01 --units g";
+    let said = accepts(&[("a.txt", values)], &format!("housner {options}"));
     assert!(
         said.contains("3 columns without times are read row by row, as one series of 12 samples"),
         "{said}"
     );
-    let said =
-        accepts(&[("a.txt", values)], &[&["housner", "--column", "3"], &options[..]].concat());
+    let said = accepts(&[("a.txt", values)], &format!("housner --column 3 {options}"));
     assert!(said.contains(": 4 samples of 0.01 s") && !said.contains("row by row"), "{said}");
 }
 
@@ -128,12 +102,11 @@ fn bare_values_read_row_by_row_are_said() {
 fn options_speak_of_the_file_that_a_case_names() {
     let case = format!("{STRUCTURE}[record]\nfile = \"a.txt\"\n");
     let files = [("case.toml", case.as_str()), ("a.txt", "0.1\n0.3\n-0.2\n")];
-    let said =
-        accepts(&files, &["housner", "case.toml", "--dt", "0.02", "--units", "m/s2", "--baseline"]);
+    let said = accepts(&files, "housner case.toml --dt 0.02 --units m/s2 --baseline");
     assert!(said.contains("(a.txt, in m/s2)") && said.contains("3 samples of 0.02 s"), "{said}");
     refuses(
         &files,
-        &["housner", "case.toml", "--dt", "0.02"],
+        "housner case.toml --dt 0.02",
         &["a.txt: the unit of acceleration is not in the file"],
     );
 }

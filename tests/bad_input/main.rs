@@ -9,49 +9,30 @@ mod options;
 mod program;
 mod sweeps;
 
-use std::{fs, path::Path};
+use program::TestFolder;
 
-use tempfile::TempDir;
-
-/// Run `tune` in an empty folder with the given files; it must fail cleanly and say each of
-/// `words`.
-fn refuses(files: &[(&str, &str)], args: &[&str], words: &[&str]) {
-    let files: Vec<(&str, &[u8])> =
-        files.iter().map(|(name, text)| (*name, text.as_bytes())).collect();
-    refuses_bytes(&files, args, words);
+/// Run `tune` in an empty folder with the given files, as [`TestFolder`] takes them; it must fail
+/// cleanly and say each of `words`.
+fn refuses(files: &[(&str, &str)], line: &str, words: &[&str]) {
+    refuses_in(&TestFolder::with(files), line, words);
 }
 
-/// The same with files of any bytes; a name that ends in / is a folder.
-fn refuses_bytes(files: &[(&str, &[u8])], args: &[&str], words: &[&str]) {
-    let dir = TempDir::new().unwrap();
-    for (name, bytes) in files {
-        let path = dir.path().join(name);
-        if name.ends_with('/') {
-            fs::create_dir(path).unwrap()
-        } else {
-            fs::write(path, bytes).unwrap()
-        }
-    }
-    refuses_in(dir.path(), args, words);
+/// The same with a file of any bytes.
+fn refuses_bytes((name, bytes): (&str, &[u8]), line: &str, words: &[&str]) {
+    let folder = TestFolder::with(&[]);
+    folder.write(name, bytes);
+    refuses_in(&folder, line, words);
 }
 
-fn refuses_in(dir: &Path, args: &[&str], words: &[&str]) {
-    let before = entries(dir);
-    let output = program::tune(dir, args);
-    let stderr = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(2), "{args:?}: {stderr}");
-    assert_eq!(stderr.trim_end().lines().count(), 1, "{args:?}: more than one line: {stderr}");
-    assert!(stderr.chars().count() < 400, "{args:?}: {stderr}");
+fn refuses_in(folder: &TestFolder, line: &str, words: &[&str]) {
+    let entries = || std::fs::read_dir(folder.path("")).unwrap().count();
+    let before = entries();
+    let stderr = folder.refuses(line);
+    assert!(stderr.chars().count() < 400, "{line}: {stderr}");
     for word in words {
-        assert!(stderr.contains(word), "{args:?}: {stderr:?} does not say {word:?}");
+        assert!(stderr.contains(word), "{line}: {stderr:?} does not say {word:?}");
     }
-    assert!(output.stdout.is_empty(), "{args:?} printed a result");
-    let left = entries(dir);
-    assert_eq!(left.len(), before.len(), "{args:?} wrote something: {left:?}");
-}
-
-fn entries(dir: &Path) -> Vec<String> {
-    fs::read_dir(dir).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect()
+    assert_eq!(entries(), before, "{line} wrote something");
 }
 
 const STRUCTURE: &str =
@@ -60,13 +41,12 @@ const STRUCTURE: &str =
 const AT2: &str = "PEER\nname\nACCELERATION TIME HISTORY IN UNITS OF G\nNPTS= 4, DT= .01000 SEC\n";
 
 fn run_case(text: &str, words: &[&str]) {
-    refuses(&[("case.toml", text)], &["run", "case.toml", "--quiet", "--out", "results"], words);
+    refuses(&[("case.toml", text)], "run case.toml --quiet --out results", words);
 }
 
-fn run_record(name: &str, text: &str, more: &[&str], words: &[&str]) {
-    let mut args = vec!["run", "--quiet", "--out", "results", "--record", name];
-    args.extend(more);
-    refuses(&[(name, text)], &args, words);
+fn run_record(name: &str, text: &str, more: &str, words: &[&str]) {
+    let line = format!("run --quiet --out results --record {name} {more}");
+    refuses(&[(name, text)], &line, words);
 }
 
 /// A parameter file whose vertical chain has this k1.
@@ -82,14 +62,14 @@ fn parameters(k1: f64) -> String {
     format!("{{\"structure\":{structure},\"vertical\":{},\"horizontal\":{}}}", row(k1), row(1e6))
 }
 
-fn export(more: &[&str], words: &[&str]) {
-    let args = [&["export", "--parameters", "p.json"], more].concat();
-    refuses(&[("p.json", &parameters(1e6))], &args, words);
+fn export(more: &str, words: &[&str]) {
+    let line = format!("export --parameters p.json {more}");
+    refuses(&[("p.json", &parameters(1e6))], &line, words);
 }
 
-fn verify(more: &[&str], words: &[&str]) {
-    let args = [&["verify", "--parameters", "p.json", "--duration", "3"], more].concat();
-    refuses(&[("p.json", &parameters(1e6))], &args, words);
+fn verify(more: &str, words: &[&str]) {
+    let line = format!("verify --parameters p.json --duration 3 {more}");
+    refuses(&[("p.json", &parameters(1e6))], &line, words);
 }
 
 const PARAMETERS: &str = include_str!("../../fuzz/corpus/parameters/paper");
@@ -116,8 +96,8 @@ fn record_row(source: serde_json::Value) -> serde_json::Value {
 }
 
 /// Each command that uses the record a parameters.json remembers.
-const USERS: [&[&str]; 3] = [
-    &["simulate", "--parameters", "p.json"],
-    &["verify", "--parameters", "p.json"],
-    &["export", "--parameters", "p.json", "--format", "csv", "--out", "springs.csv"],
+const USERS: [&str; 3] = [
+    "simulate --parameters p.json",
+    "verify --parameters p.json",
+    "export --parameters p.json --format csv --out springs.csv",
 ];

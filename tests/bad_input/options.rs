@@ -4,83 +4,77 @@ use super::*;
 
 #[test]
 fn an_unknown_option() {
-    refuses(&[], &["run", "--recrd", "a.at2"], &["--recrd"]);
+    refuses(&[], "run --recrd a.at2", &["--recrd"]);
 }
 
 #[test]
 fn a_folder_that_cannot_be_made() {
-    refuses(&[("results", "a file\n")], &["run", "--quiet", "--out", "results"], &["results"]);
+    refuses(&[("results", "a file\n")], "run --quiet --out results", &["results"]);
 }
 
 #[test]
 fn results_that_cannot_be_written_are_refused_before_the_work() {
     let file = [("results", "a file\n")];
-    for args in [
-        &["run", "--quiet", "--out", "results"][..],
-        &["run", "--quiet", "--out", "results/below"],
-        &["chart", "--out", "results"],
-    ] {
+    for args in
+        ["run --quiet --out results", "run --quiet --out results/below", "chart --out results"]
+    {
         refuses(&file, args, &["results: is a file where a folder is needed"]);
     }
-    refuses(&[("housner.csv/", "")], &["housner", "--out", "."], &["is a folder; name a file"]);
-    refuses(&[], &["housner", "--out", "nowhere/h.csv"], &["there is no folder nowhere"]);
+    refuses(&[("housner.csv/", "")], "housner --out .", &["is a folder; name a file"]);
+    refuses(&[], "housner --out nowhere/h.csv", &["there is no folder nowhere"]);
     let parameters = ("p.json", PARAMETERS);
-    let validate = ["validate", "--parameters", "p.json", "--synthetic", "3", "--out", "results"];
-    refuses(&[parameters, file[0]], &validate, &["results: is a file"]);
+    let validate = "validate --parameters p.json --synthetic 3 --out results";
+    refuses(&[parameters, file[0]], validate, &["results: is a file"]);
     refuses(
         &[parameters, file[0]],
-        &["verify", "--parameters", "p.json", "--out", "results"],
+        "verify --parameters p.json --out results",
         &["results: is a file"],
     );
-    refuses(
-        &[parameters],
-        &["simulate", "--parameters", "p.json", "--out", "x/h.csv"],
-        &["there is no folder x"],
-    );
-    let export = ["export", "--parameters", "p.json", "--format", "csv", "--out", "results/"];
-    refuses(&[parameters, file[0]], &export, &["results", "is a file where a folder is needed"]);
+    refuses(&[parameters], "simulate --parameters p.json --out x/h.csv", &["there is no folder x"]);
+    let export = "export --parameters p.json --format csv --out results/";
+    refuses(&[parameters, file[0]], export, &["results", "is a file where a folder is needed"]);
 }
 
 #[test]
 fn options_that_are_no_numbers_or_out_of_range() {
     for (args, word) in [
-        (&["run", "--scale", "nan"][..], "NaN"),
-        (&["run", "--work", "0"], "--work is 0.0"),
-        (&["run", "--work", "inf"], "1 is the default"),
-        (&["run", "--time-limit", "-1"], "give seconds above zero"),
-        (&["run", "--scale", "1e300"], "above 50 g"),
-        (&["run", "--duration", "nan"], "--duration is NaN"),
-        (&["run", "--duration", "inf"], "--duration is inf"),
-        (&["run", "--max-hz", "nan"], "--max-hz is NaN"),
-        (&["run", "--friction", "-1"], "--friction is -1"),
-        (&["run", "--jobs", "-1"], "unexpected argument"),
-        (&["run", "--jobs", "0"], "--jobs is 0; give at least one thread"),
-        (&["chart", "--jobs", "0"], "--jobs is 0"),
-        (&["chart", "--alpha", "nan"], "alpha is NaN"),
-        (&["run", "--scale", "inf"], "inf"),
-        (&["run", "--accuracy", "inf"], "--accuracy is inf"),
-        (&["run", "--max-hz", "0"], "--max-hz is 0.0"),
-        (&["run", "--duration", "0"], "--duration is 0"),
-        (&["run", "--jobs", "99999999"], "--jobs is 99999999"),
-        (&["run", "--step", "0"], "--step is 0.0; give a time step between 1e-6 and 0.1 s"),
-        (&["run", "--step", "nan"], "--step is NaN"),
-        (&["run", "--for", "abaqus"], "--for is \"abaqus\"; give sap2000, etabs or opensees-even"),
-        (&["run", "--for", "abaqus"], "for another program: --step and --integrator"),
-        (&["run", "--step", "1ms"], "seconds as a number: 0.001"),
-        (&["run", "--integrator", "hht:0.333"], "give hht:-0.333"),
-        (&["run", "--integrator", "hht:0.9"], "--integrator is \"hht:0.9\""),
+        ("run --scale nan", "NaN"),
+        ("run --work 0", "--work is 0.0"),
+        ("run --work inf", "1 is the default"),
+        ("run --time-limit -1", "give seconds above zero"),
+        ("run --scale 1e300", "above 50 g"),
+        ("run --duration nan", "--duration is NaN"),
+        ("run --duration inf", "--duration is inf"),
+        ("run --max-hz nan", "--max-hz is NaN"),
+        ("run --friction -1", "--friction is -1"),
+        ("run --jobs -1", "unexpected argument"),
+        ("run --jobs 0", "--jobs is 0; give at least one thread"),
+        ("chart --jobs 0", "--jobs is 0"),
+        ("chart --alpha nan", "alpha is NaN"),
+        ("run --scale inf", "inf"),
+        ("run --accuracy inf", "--accuracy is inf"),
+        ("run --max-hz 0", "--max-hz is 0.0"),
+        ("run --duration 0", "--duration is 0"),
+        ("run --jobs 99999999", "--jobs is 99999999"),
+        ("run --step 0", "--step is 0.0; give a time step between 1e-6 and 0.1 s"),
+        ("run --step nan", "--step is NaN"),
+        ("run --for abaqus", "--for is \"abaqus\"; give sap2000, etabs or opensees-even"),
+        ("run --for abaqus", "for another program: --step and --integrator"),
+        ("run --step 1ms", "seconds as a number: 0.001"),
+        ("run --integrator hht:0.333", "give hht:-0.333"),
+        ("run --integrator hht:0.9", "--integrator is \"hht:0.9\""),
         (
-            &["run", "--for", "sap2000", "--integrator", "trbdf2"],
+            "run --for sap2000 --integrator trbdf2",
             "SAP2000 takes hht:ALPHA from -1/3 to 0, or newmark:GAMMA:BETA",
         ),
-        (&["run", "--substeps", "0"], "--substeps is 0; give a number from 1"),
-        (&["run", "--dt", "0.01"], "name it with --record"),
-        (&["housner", "--restitution", "nan"], "--restitution is NaN"),
-        (&["housner", "--restitution", "-1"], "--restitution is -1"),
-        (&["response", "--mu", "nan"], "mu is NaN"),
-        (&["response", "--mu", "1e308"], "mu"),
-        (&[], "tune --help"),
-        (&["tune"], "tune --help"),
+        ("run --substeps 0", "--substeps is 0; give a number from 1"),
+        ("run --dt 0.01", "name it with --record"),
+        ("housner --restitution nan", "--restitution is NaN"),
+        ("housner --restitution -1", "--restitution is -1"),
+        ("response --mu nan", "mu is NaN"),
+        ("response --mu 1e308", "mu"),
+        ("", "tune --help"),
+        ("tune", "tune --help"),
     ] {
         refuses(&[], args, &[word]);
     }
@@ -91,7 +85,7 @@ fn time_steps_that_cannot_be() {
     for dt in ["0", "-0.01", "nan", "1e9"] {
         refuses(
             &[("a.txt", "0.1\n0.2\n")],
-            &["run", "--record", "a.txt", "--units", "g", "--dt", dt],
+            &format!("run --record a.txt --units g --dt {dt}"),
             &["time step"],
         );
     }
@@ -99,21 +93,21 @@ fn time_steps_that_cannot_be() {
 
 #[test]
 fn files_as_other_systems_write_them() {
-    let units = ["--units", "g", "--dt", "0.01"];
-    run_record("bom.txt", "\u{feff}0.1\r\n0.2\r\nx\r\n", &units, &["bom.txt, line 3", "'x'"]);
+    let units = "--units g --dt 0.01";
+    run_record("bom.txt", "\u{feff}0.1\r\n0.2\r\nx\r\n", units, &["bom.txt, line 3", "'x'"]);
     run_record(
         "german.csv",
         "Zeit;a [g]\n0,00;0,1\n0,01;0,2\n",
-        &[],
+        "",
         &["german.csv, line 2", "decimal commas"],
     );
-    run_record("wide.txt", "\u{0}1\u{0}", &units, &["not a text file"]);
-    run_record("huge.txt", "1e300\n1e300\n", &units, &["above 50 g"]);
-    run_record("huger.txt", "1e308\n1e308\n", &units, &["sample 0 (counted from 0) is inf"]);
+    run_record("wide.txt", "\u{0}1\u{0}", units, &["not a text file"]);
+    run_record("huge.txt", "1e300\n1e300\n", units, &["above 50 g"]);
+    run_record("huger.txt", "1e308\n1e308\n", units, &["sample 0 (counted from 0) is inf"]);
     run_record(
         "npts.at2",
         "x\nIN UNITS OF G\nNPTS= 999999999999, DT= .01\n0.1\n",
-        &[],
+        "",
         &["NPTS 999999999999"],
     );
 }
@@ -121,7 +115,7 @@ fn files_as_other_systems_write_them() {
 #[test]
 fn parameters_missing_extra_or_impossible() {
     let refuse = |text: &str, words: &[&str]| {
-        refuses(&[("p.json", text)], &["simulate", "--parameters", "p.json"], words);
+        refuses(&[("p.json", text)], "simulate --parameters p.json", words);
     };
     for (path, value, word) in [
         ("structure.mass_kg", 0.0.into(), "mass_kg is 0"),
@@ -206,9 +200,9 @@ fn springs_and_members_beyond_all_measure() {
         ("structure.mass_kg", 1e300, ["mass_kg is 1e300", "between 1e-9 and 1e15"]),
         ("structure.height_m", 1e-200, ["height_m is 1e-200", "between 1e-4 and 1e5"]),
     ] {
-        for command in [&["simulate"][..], &["export", "--format", "csv", "--out", "springs.csv"]] {
-            let args = [command, &["--parameters", "p.json"]].concat();
-            refuses(&[("p.json", &with(path, value.into()))], &args, &words);
+        for command in ["simulate", "export --format csv --out springs.csv"] {
+            let line = format!("{command} --parameters p.json");
+            refuses(&[("p.json", &with(path, value.into()))], &line, &words);
         }
     }
     for (members, word) in [
@@ -225,32 +219,30 @@ fn springs_and_members_beyond_all_measure() {
 
 #[test]
 fn folders_where_files_belong_and_files_where_folders_do() {
-    let folder: [(&str, &[u8]); 1] = [("d/", b"")];
-    refuses_bytes(&folder, &["run", "--quiet", "--record", "d"], &["d: is a folder"]);
-    refuses_bytes(&folder, &["run", "d", "--quiet"], &["d: cannot be read"]);
-    refuses_bytes(&folder, &["simulate", "--parameters", "d"], &["d: cannot be read"]);
-    let both: [(&str, &[u8]); 3] = [("d/", b""), ("f", b"x"), ("p.json", PARAMETERS.as_bytes())];
-    let validate =
-        |records| ["validate", "--parameters", "p.json", "--out", "o", "--records", records];
-    refuses_bytes(&both, &validate("f"), &["f: cannot be read"]);
-    refuses_bytes(&both, &validate("d"), &["d: no record files"]);
-    refuses_bytes(&both, &validate("nowhere"), &["nowhere: cannot be read"]);
+    let folder = [("d/", "")];
+    refuses(&folder, "run --quiet --record d", &["d: is a folder"]);
+    refuses(&folder, "run d --quiet", &["d: cannot be read"]);
+    refuses(&folder, "simulate --parameters d", &["d: cannot be read"]);
+    let both = [("d/", ""), ("f", "x"), ("p.json", PARAMETERS)];
+    let validate = |records| format!("validate --parameters p.json --out o --records {records}");
+    refuses(&both, &validate("f"), &["f: cannot be read"]);
+    refuses(&both, &validate("d"), &["d: no record files"]);
+    refuses(&both, &validate("nowhere"), &["nowhere: cannot be read"]);
 }
 
 /// A file renamed into place would take the device's.
 #[cfg(unix)]
 #[test]
 fn a_device_is_not_replaced_by_results() {
-    let dir = TempDir::new().unwrap();
-    let sink = dir.path().join("sink");
+    let dir = TestFolder::with(&[("p.json", PARAMETERS)]);
+    let sink = dir.path("sink");
     std::os::unix::fs::symlink("/dev/null", &sink).unwrap();
-    fs::write(dir.path().join("p.json"), PARAMETERS).unwrap();
     for args in [
-        &["housner", "--out", "sink"][..],
-        &["simulate", "--parameters", "p.json", "--out", "sink"],
-        &["export", "--parameters", "p.json", "--format", "csv", "--out", "sink"],
+        "housner --out sink",
+        "simulate --parameters p.json --out sink",
+        "export --parameters p.json --format csv --out sink",
     ] {
-        refuses_in(dir.path(), args, &["sink: is a device or a pipe"]);
+        refuses_in(&dir, args, &["sink: is a device or a pipe"]);
     }
-    assert!(fs::symlink_metadata(&sink).unwrap().is_symlink());
+    assert!(sink.symlink_metadata().unwrap().is_symlink());
 }

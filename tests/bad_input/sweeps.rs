@@ -9,11 +9,7 @@ const GROUND: &str = "[records]\nel_centro = true\n";
 const LEVELS: &str = "[levels]\nscale = [1.0]\n";
 
 fn sweep(text: &str, words: &[&str]) {
-    refuses(
-        &[("sweep.toml", text)],
-        &["sweep", "sweep.toml", "--quiet", "--out", "results"],
-        words,
-    );
+    refuses(&[("sweep.toml", text)], "sweep sweep.toml --quiet --out results", words);
 }
 
 #[test]
@@ -96,10 +92,10 @@ fn records_that_are_not_there_or_do_not_move_are_named() {
     sweep(&with("files = [\"none.at2\"]\n"), &["none.at2", "cannot be read"]);
     sweep(&with("folder = \"none\"\n"), &["none", "cannot be read"]);
     let still = with("files = [\"still.txt\"]\ndt_s = 0.01\nunits = \"g\"\n");
-    let args = ["sweep", "sweep.toml", "--quiet", "--out", "results"];
+    let args = "sweep sweep.toml --quiet --out results";
     refuses(
         &[("sweep.toml", &still), ("still.txt", "0\n0\n0\n0\n0\n")],
-        &args,
+        args,
         &["still", "no motion"],
     );
 }
@@ -108,11 +104,11 @@ fn records_that_are_not_there_or_do_not_move_are_named() {
 fn shares_and_folders_that_are_none_are_refused() {
     let text = format!("{HEAD}{BLOCK}{GROUND}{LEVELS}");
     let files = [("sweep.toml", text.as_str())];
-    refuses(&files, &["sweep", "sweep.toml", "--shard", "9/8"], &["9/8 is no share"]);
-    refuses(&files, &["sweep", "gather", "sweep.toml", "--out", "none"], &["none: no sweep there"]);
-    refuses(&files, &["sweep"], &["required"]);
-    refuses(&files, &["sweep", "none.toml"], &["none.toml", "cannot be read"]);
-    refuses(&files, &["sweep", "plan", "sweep.toml", "--slurm", "--time", "2h; rm"], &["--time"]);
+    refuses(&files, "sweep sweep.toml --shard 9/8", &["9/8 is no share"]);
+    refuses(&files, "sweep gather sweep.toml --out none", &["none: no sweep there"]);
+    refuses(&files, "sweep", &["required"]);
+    refuses(&files, "sweep none.toml", &["none.toml", "cannot be read"]);
+    refuses(&files, "sweep plan sweep.toml --slurm --time '2h; rm'", &["--time"]);
 }
 
 #[test]
@@ -135,7 +131,7 @@ fn a_motion_that_no_other_can_be_like_is_refused() {
     ] {
         refuses(
             &[("sweep.toml", &text), ("floor.csv", &motion)],
-            &["sweep", "sweep.toml", "--quiet", "--out", "results"],
+            "sweep sweep.toml --quiet --out results",
             &words,
         );
     }

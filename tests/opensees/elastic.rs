@@ -1,27 +1,13 @@
 //! Elastic structures in OpenSees, against our own histories and plastic landings.
 
-use super::{program, programs};
+use super::{program::TestFolder, programs};
 use decks::verify::Program;
 
 /// `tune run` of an elastic structure, then `tune verify` in each program, with these options; the
 /// folder, with the run in `out` and the last one's in `out/verify`.
-fn elastic_agrees(
-    case: &str,
-    more: &[&str],
-    verify: &[&str],
-    programs: &[Program],
-) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("case.toml"), case).unwrap();
-    let tune = |arguments: &[&str]| {
-        let out = program::tune(folder.path(), &[arguments, &["--quiet"]].concat());
-        (
-            out.status.success(),
-            String::from_utf8(out.stdout).unwrap() + &String::from_utf8(out.stderr).unwrap(),
-        )
-    };
-    let ran = tune(&[&["run", "case.toml", "--no-figures", "--no-report"], more].concat());
-    assert!(ran.0, "{}", ran.1);
+fn elastic_agrees(case: &str, more: &str, verify: &str, programs: &[Program]) -> TestFolder {
+    let folder = TestFolder::with(&[("case.toml", case)]);
+    folder.runs(&format!("run case.toml --quiet --no-figures --no-report {more}"));
     let absolute = |word: &str| match std::fs::canonicalize(word) {
         Ok(_) if word.contains('/') => std::path::absolute(word).unwrap().display().to_string(),
         _ => word.to_string(),
@@ -33,18 +19,18 @@ fn elastic_agrees(
                 ("--tcl", words.iter().map(|word| absolute(word)).collect::<Vec<_>>().join(" "))
             }
         };
-        let begin = ["verify", "--parameters", "out/parameters.json", "--out", "out/verify"];
-        let ran = tune(&[&begin[..], verify, &[option, &command]].concat());
-        println!("{program:?}: {}", ran.1);
-        let within = ran.1.contains("OpenSees is within 0.002 of our own rotation");
-        assert!(ran.0 && within, "{}", ran.1);
+        let begin = "verify --quiet --parameters out/parameters.json --out out/verify";
+        let ran = folder.runs(&format!("{begin} {verify} {option} '{command}'"));
+        let said = ran.stdout + &ran.stderr;
+        println!("{program:?}: {said}");
+        assert!(said.contains("OpenSees is within 0.002 of our own rotation"), "{said}");
     }
     folder
 }
 
 /// A column of a table of a folder.
-fn column(folder: &tempfile::TempDir, file: &str, name: &str) -> Vec<f64> {
-    let text = std::fs::read_to_string(folder.path().join(file)).unwrap();
+fn column(folder: &TestFolder, file: &str, name: &str) -> Vec<f64> {
+    let text = folder.text(file);
     let mut lines = text.lines();
     let at = lines.next().unwrap().split(',').position(|head| head == name).unwrap();
     lines.map(|line| line.split(',').nth(at).unwrap().parse().unwrap()).collect()
@@ -53,7 +39,7 @@ fn column(folder: &tempfile::TempDir, file: &str, name: &str) -> Vec<f64> {
 /// OpenSees' history of a column of two elements with a mass of its own, beside rigid ground with
 /// plastic landings: nearer on stiffer springs.
 #[test]
-#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
+#[ignore = "needs OpenSees, which .ci/run installs"]
 fn a_column_of_several_elements_in_opensees_converges_to_plastic_landings() {
     let column_of_two = "column_mass_kg = 40e3\nelements = 2\n\n[record]\nduration_s = 5.0\n";
     let case = include_str!("../../tuning/pier.toml");
@@ -62,8 +48,8 @@ fn a_column_of_several_elements_in_opensees_converges_to_plastic_landings() {
     let errors = ["250", "1000"].map(|hz| {
         let folder = elastic_agrees(
             &case,
-            &["--max-hz", hz, "--accuracy", "1e-5"],
-            &["--duration", "4.5"],
+            &format!("--max-hz {hz} --accuracy 1e-5"),
+            "--duration 4.5",
             &programs()[..1],
         );
         let error = |name: &str| {
@@ -96,36 +82,36 @@ damping_ratio = 0.02
 ";
 
 #[test]
-#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
+#[ignore = "needs OpenSees, which .ci/run installs"]
 fn elastic_structures_agree() {
     let python = &programs()[..1];
-    let run = ["--work", "0.05", "--no-front"];
-    elastic_agrees(include_str!("../../tuning/pier.toml"), &run, &["--duration", "5"], python);
-    elastic_agrees(ELASTIC_FRAME, &run, &["--duration", "6"], python);
+    let run = "--work 0.05 --no-front";
+    elastic_agrees(include_str!("../../tuning/pier.toml"), run, "--duration 5", python);
+    elastic_agrees(ELASTIC_FRAME, run, "--duration 6", python);
 }
 
 /// What decks of two languages are to show needs neither the best springs nor more than a few
 /// landings: three of the frame, five of the pier.
-const SHORT: &[&str] = &["--duration", "5", "--work", "0.05", "--no-front"];
+const SHORT: &str = "--duration 5 --work 0.05 --no-front";
 
 /// The Tcl interpreter that pip installs has no damping objects: without damping it must find what
 /// Python finds. In steps as long as the limit of `tune verify` allows.
 #[test]
-#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
+#[ignore = "needs OpenSees, which .ci/run installs"]
 fn an_undamped_elastic_structure_agrees_in_every_language() {
     let undamped = ELASTIC_FRAME.replace("damping_ratio = 0.02", "damping_ratio = 0.0");
-    let run = [SHORT, &["--max-hz", "400"]].concat();
-    elastic_agrees(&undamped, &run, &["--duration", "4.1", "--accuracy", "0.008"], &programs());
+    let run = format!("{SHORT} --max-hz 400");
+    elastic_agrees(&undamped, &run, "--duration 4.1 --accuracy 0.008", &programs());
 }
 
 /// Rocking piers of El Centro's first seconds, damped at their corners and tied down.
 #[test]
-#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
+#[ignore = "needs OpenSees, which .ci/run installs"]
 fn an_elastic_structure_with_dampers_and_a_tendon_agrees_in_every_language() {
     let pier = include_str!("../../tuning/pier.toml")
         .replace("damping_ratio = 0.02", "damping_ratio = 0.0");
     let members =
         "[damper]\nc_ns_per_m = 1e6\n[tendon]\nstiffness_n_per_m = 2e7\npretension_n = 1e6\n";
-    let verify = ["--duration", "4.5", "--accuracy", "0.008"];
-    elastic_agrees(&format!("{pier}\n{members}"), SHORT, &verify, &programs());
+    let verify = "--duration 4.5 --accuracy 0.008";
+    elastic_agrees(&format!("{pier}\n{members}"), SHORT, verify, &programs());
 }

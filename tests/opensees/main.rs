@@ -89,7 +89,7 @@ fn stiff(structure: &Structure, hz: f64) -> Springs<Design<f64>> {
         ((body.half_width / body.height).atan(), body.mass * body.radius().powi(2));
     let effective = 1.0 - point / (point + body.inertia) * alpha.sin().powi(2);
     let omega = std::f64::consts::TAU * hz;
-    let k = (0.5 * (omega / body.p_squared().sqrt()).powf(-0.55) * alpha.powf(-1.5)).min(0.3);
+    let k = (0.5 * (omega / body.p()).powf(-0.55) * alpha.powf(-1.5)).min(0.3);
     Springs {
         vertical: Design::from_kc(0.66 * effective, k, 0.6 * effective.sqrt(), hz),
         horizontal: Design::from_kc(0.3, 1.0, 2.0, 8.0 * hz),
@@ -101,7 +101,7 @@ fn stiff(structure: &Structure, hz: f64) -> Springs<Design<f64>> {
 /// of the error: that is why the bound is on the median. OpenSees' Tcl interpreter cannot run
 /// twice: its deck tells.
 #[test]
-#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
+#[ignore = "needs OpenSees, which .ci/run installs"]
 fn decks_on_stiff_springs_are_within_their_limit_in_few_steps() {
     let pier = Structure::a_frame(12.0, 2.4, 350e3).unwrap();
     let mut steps = Vec::new();
@@ -137,7 +137,7 @@ fn decks_on_stiff_springs_are_within_their_limit_in_few_steps() {
 /// first uplift a foot chatters 70 times. OpenSees finds another history in other steps; it is
 /// refused, and said why.
 #[test]
-#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
+#[ignore = "needs OpenSees, which .ci/run installs"]
 fn springs_on_which_a_lifting_foot_chatters_are_refused() {
     let pier = with_inertia(&Structure::a_frame(12.0, 2.4, 350e3).unwrap(), &Members::default());
     let springs = Springs {
@@ -183,31 +183,31 @@ fn block_of_2_m() -> Structure {
 }
 
 #[test]
-#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
+#[ignore = "needs OpenSees, which .ci/run installs"]
 fn the_paper_frame_on_table_1_springs_agrees() {
     agrees(&programs(), Structure::paper(), Springs::table_1());
 }
 
 #[test]
-#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
+#[ignore = "needs OpenSees, which .ci/run installs"]
 fn the_paper_frame_on_its_springs_of_40_hz_agrees() {
     tuned_agrees(Structure::paper(), Objective::Landing, 40.0);
 }
 
 #[test]
-#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
+#[ignore = "needs OpenSees, which .ci/run installs"]
 fn the_paper_frame_on_its_springs_of_160_hz_agrees() {
     tuned_agrees(Structure::paper(), Objective::Landing, 160.0);
 }
 
 #[test]
-#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
+#[ignore = "needs OpenSees, which .ci/run installs"]
 fn the_paper_frame_on_springs_of_40_hz_by_the_papers_procedure_agrees() {
     tuned_agrees(Structure::paper(), Objective::Arr, 40.0);
 }
 
 #[test]
-#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
+#[ignore = "needs OpenSees, which .ci/run installs"]
 fn the_paper_frame_on_springs_of_160_hz_by_the_papers_procedure_agrees() {
     tuned_agrees(Structure::paper(), Objective::Arr, 160.0);
 }
@@ -215,19 +215,19 @@ fn the_paper_frame_on_springs_of_160_hz_by_the_papers_procedure_agrees() {
 /// On springs this soft for it a lifting foot chatters: its steps are asked for a quarter of the
 /// error, too.
 #[test]
-#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
+#[ignore = "needs OpenSees, which .ci/run installs"]
 fn a_frame_of_5_by_1_5_m_on_table_1_springs_agrees() {
     agrees_at(ACCURACY / 4.0, &programs(), frame_of_5_m(), Springs::table_1());
 }
 
 #[test]
-#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
+#[ignore = "needs OpenSees, which .ci/run installs"]
 fn a_frame_of_5_by_1_5_m_on_its_springs_of_40_hz_agrees() {
     tuned_agrees(frame_of_5_m(), Objective::Landing, 40.0);
 }
 
 #[test]
-#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
+#[ignore = "needs OpenSees, which .ci/run installs"]
 fn a_frame_of_5_by_1_5_m_on_its_springs_of_160_hz_agrees() {
     tuned_agrees(frame_of_5_m(), Objective::Landing, 160.0);
 }
@@ -235,25 +235,25 @@ fn a_frame_of_5_by_1_5_m_on_its_springs_of_160_hz_agrees() {
 /// It topples at 6.4 s, which multiplies whatever its steps miss before: they are asked for a
 /// quarter of that.
 #[test]
-#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
+#[ignore = "needs OpenSees, which .ci/run installs"]
 fn a_block_of_2_by_0_5_m_on_table_1_springs_agrees() {
     agrees_at(ACCURACY / 4.0, &programs(), block_of_2_m(), Springs::table_1());
 }
 
 #[test]
-#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
+#[ignore = "needs OpenSees, which .ci/run installs"]
 fn a_block_of_2_by_0_5_m_on_its_springs_of_40_hz_agrees() {
     soft_agrees(block_of_2_m(), Objective::Landing, 40.0);
 }
 
 #[test]
-#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
+#[ignore = "needs OpenSees, which .ci/run installs"]
 fn a_block_of_2_by_0_5_m_on_its_springs_of_160_hz_agrees() {
     tuned_agrees(block_of_2_m(), Objective::Landing, 160.0);
 }
 
 #[test]
-#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
+#[ignore = "needs OpenSees, which .ci/run installs"]
 fn a_block_of_2_by_0_5_m_on_springs_of_the_papers_procedure_agrees() {
     soft_agrees(block_of_2_m(), Objective::Arr, 160.0);
 }
@@ -288,7 +288,7 @@ fn agrees_on(structure: Structure, springs: Springs<Design<f64>>, members: Membe
 }
 
 #[test]
-#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
+#[ignore = "needs OpenSees, which .ci/run installs"]
 fn dampers_across_the_interface_agree() {
     agrees_with(Members { damper: Some(Damper { c: 1e6 }), ..Members::default() }, 20.0);
 }
@@ -296,7 +296,7 @@ fn dampers_across_the_interface_agree() {
 /// On springs as stiff as a run makes them a mass with little rotational inertia hops there, both
 /// feet in the air.
 #[test]
-#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
+#[ignore = "needs OpenSees, which .ci/run installs"]
 fn dampers_on_stiff_springs_agree() {
     let frame = Structure::a_frame(28.0, 6.0, 1.835e6).unwrap();
     let damped = Members { damper: Some(Damper { c: 1e6 }), ..Members::default() };
@@ -305,14 +305,14 @@ fn dampers_on_stiff_springs_agree() {
 }
 
 #[test]
-#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
+#[ignore = "needs OpenSees, which .ci/run installs"]
 fn a_post_tensioned_tendon_agrees() {
     let tendon = Some(Tendon { stiffness: 2e6, pretension: 5e5 });
     agrees_with(Members { tendon, ..Members::default() }, 20.0);
 }
 
 #[test]
-#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
+#[ignore = "needs OpenSees, which .ci/run installs"]
 fn dampers_and_a_tendon_agree() {
     let tendon = Some(Tendon { stiffness: 2e6, pretension: 5e5 });
     agrees_with(Members { damper: Some(Damper { c: 1e6 }), tendon, friction: None }, 20.0);

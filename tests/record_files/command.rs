@@ -1,35 +1,32 @@
 //! `tune record`, and the other commands on files with several components.
 
-use std::fs;
-
 use serde_json::Value;
-use tempfile::TempDir;
 
-use crate::{tune, write};
+use crate::{
+    program::{Ended, TestFolder},
+    write,
+};
 
-fn folder() -> TempDir {
-    let dir = TempDir::new().unwrap();
+const BLOCK: &str =
+    "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 100.0\n";
+
+fn folder() -> TestFolder {
+    let case = |record: &str| format!("{BLOCK}[record]\n{record}\n");
     let geonet = write::geonet(&[("N28W", 5000.0), ("S62W", 7000.0), ("Up", 9000.0)], false);
-    fs::write(dir.path().join("site.V2A"), geonet).unwrap();
-    fs::write(dir.path().join("TST.EW"), write::knet("E-W")).unwrap();
-    fs::write(dir.path().join("bad.txt"), "1 0.1\n2 0.2\n").unwrap();
-    let block =
-        "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 100.0\n[record]\n";
-    fs::write(
-        dir.path().join("case.toml"),
-        format!("{block}file = \"site.V2A\"\ncomponent = \"up\"\n"),
-    )
-    .unwrap();
-    fs::write(dir.path().join("plain.toml"), format!("{block}file = \"site.V2A\"\n")).unwrap();
-    fs::write(dir.path().join("nofile.toml"), format!("{block}baseline = true\n")).unwrap();
-    dir
+    TestFolder::with(&[
+        ("site.V2A", &geonet),
+        ("TST.EW", &write::knet("E-W")),
+        ("bad.txt", "1 0.1\n2 0.2\n"),
+        ("case.toml", &case("file = \"site.V2A\"\ncomponent = \"up\"")),
+        ("plain.toml", &case("file = \"site.V2A\"")),
+        ("nofile.toml", &case("baseline = true")),
+    ])
 }
 
 #[test]
 fn files_are_told_as_tables_and_as_json() {
     let dir = folder();
-    let (code, out, err) = tune(dir.path(), &["record", "site.V2A", "TST.EW"]);
-    assert_eq!(code, 0, "{err}");
+    let Ended { stdout: out, stderr: err, .. } = dir.runs("record site.V2A TST.EW");
     for words in [
         "site.V2A: GeoNet, TEST Made up Farm",
         "| S62W*",
@@ -44,19 +41,9 @@ fn files_are_told_as_tables_and_as_json() {
         "{err}"
     );
 
-    let args = [
-        "record",
-        "site.V2A",
-        "--json",
-        "--component",
-        "332",
-        "--case",
-        "case.toml",
-        "--out",
-        "figures",
-    ];
-    let (code, out, err) = tune(dir.path(), &args);
-    assert_eq!((code, err.as_str()), (0, ""));
+    let line = "record site.V2A --json --component 332 --case case.toml --out figures";
+    let Ended { stdout: out, stderr: err, .. } = dir.runs(line);
+    assert_eq!(err, "");
     let all: Value = serde_json::from_str(&out).unwrap();
     let rows = all[0]["components"].as_array().unwrap();
     assert_eq!((rows.len(), all[0]["format"].as_str()), (3, Some("GeoNet")));
@@ -74,72 +61,59 @@ fn files_are_told_as_tables_and_as_json() {
     // tan(alpha) = 0.25, g = 9.81 m/s2
     let ratio = rows[0]["structure"]["pga_over_g_tan_alpha"].as_f64().unwrap();
     assert!((ratio - number("pga_g").abs() / 0.25).abs() < 1e-12);
-    assert!(dir.path().join("figures/site.png").exists());
+    assert!(dir.has("figures/site.png"));
 }
 
 #[test]
 fn a_case_without_a_file_stands_for_its_own_record() {
     let dir = folder();
-    let json = |args: &[&str]| {
-        let (code, out, err) = tune(dir.path(), args);
-        assert_eq!(code, 0, "{err}");
-        serde_json::from_str::<Value>(&out).unwrap()
-    };
-    let named = json(&["record", "site.V2A", "--json", "--component", "up", "--case", "case.toml"]);
-    assert_eq!(json(&["record", "--case", "case.toml", "--json"]), named);
-    let other = json(&["record", "--case", "case.toml", "--component", "332", "--json"]);
+    let json = |line: &str| serde_json::from_str::<Value>(&dir.runs(line).stdout).unwrap();
+    let named = json("record site.V2A --json --component up --case case.toml");
+    assert_eq!(json("record --case case.toml --json"), named);
+    let other = json("record --case case.toml --component 332 --json");
     assert_eq!(other[0]["components"][0]["taken"].as_bool(), Some(true));
-    let (code, out, err) = tune(dir.path(), &["record"]);
-    assert_eq!((code, out.as_str(), err.lines().count()), (2, "", 1), "{err}");
-    let block = "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 100.0\n";
-    fs::write(dir.path().join("none.toml"), block).unwrap();
-    let (code, _, err) = tune(dir.path(), &["record", "--case", "none.toml"]);
-    assert!(code == 2 && err.contains("names no record file"), "{err}");
+    dir.refuses("record");
+    dir.write("none.toml", BLOCK);
+    let err = dir.refuses("record --case none.toml");
+    assert!(err.contains("names no record file"), "{err}");
 }
 
 #[test]
 fn a_bad_file_among_others_is_said_and_fails() {
     let dir = folder();
-    let (code, out, err) = tune(dir.path(), &["record", "bad.txt"]);
-    assert_eq!((code, out.as_str(), err.lines().count()), (2, "", 1), "{err}");
+    let err = dir.refuses("record bad.txt");
     assert!(err.contains("bad.txt, line 1: the first column counts rows"), "{err}");
-    let (code, out, err) = tune(dir.path(), &["record", "bad.txt", "TST.EW"]);
-    assert_eq!(code, 2);
-    assert!(
-        out.contains("TST.EW: K-NET") && err.contains("1 of 2 files could not be read"),
-        "{err}"
-    );
+    let Ended { code, stdout, stderr } = dir.tune("record bad.txt TST.EW");
+    assert_eq!(code, Some(2));
+    assert!(stdout.contains("TST.EW: K-NET"), "{stdout}");
+    assert!(stderr.contains("1 of 2 files could not be read"), "{stderr}");
 }
 
 #[test]
 fn other_commands_take_the_component_that_is_asked_for() {
     let dir = folder();
-    let name = |args: &[&str]| {
-        let (code, _, err) = tune(dir.path(), args);
-        assert_eq!(code, 0, "{err}");
+    let name = |line: &str| {
+        let err = dir.runs(line).stderr;
         let used = err.lines().find_map(|line| line.strip_prefix("record ")).unwrap();
         (used.split(" (").next().unwrap().to_owned(), err.lines().count())
     };
-    assert_eq!(
-        name(&["housner", "--record", "site.V2A", "--component", "N28W"]),
-        ("site N28W".into(), 2)
-    );
-    assert_eq!(name(&["housner", "--record", "site.V2A"]), ("site S62W".into(), 3));
-    assert_eq!(name(&["housner", "case.toml"]), ("site Up".into(), 2));
-    assert_eq!(name(&["housner", "plain.toml"]), ("site S62W".into(), 3));
-    for (args, words) in [
-        (
-            &["housner", "--record", "site.V2A", "--component", "90"][..],
-            "there is no component 90; it has N28W",
-        ),
-        (&["housner", "--component", "90"], "name it with --record"),
-        (&["housner", "--baseline"], "name it with --record"),
-        (&["housner", "nofile.toml"], "[record] lacks file"),
-        (&["record"], "FILE"),
-        (&["record", "site.V2A", "--units", "g"], "says its unit is mm/s2"),
+    for (line, used, lines) in [
+        ("housner --record site.V2A --component N28W", "site N28W", 2),
+        ("housner --record site.V2A", "site S62W", 3),
+        ("housner case.toml", "site Up", 2),
+        ("housner plain.toml", "site S62W", 3),
     ] {
-        let (code, out, err) = tune(dir.path(), args);
-        assert_eq!((code, out.as_str(), err.lines().count()), (2, "", 1), "{args:?}: {err}");
-        assert!(err.contains(words), "{args:?}: {err}");
+        assert_eq!(name(line), (used.into(), lines));
+    }
+    for (line, words) in [
+        ("housner --record site.V2A --component 90", "there is no component 90; it has N28W"),
+        ("housner --component 90", "name it with --record"),
+        ("housner --baseline", "name it with --record"),
+        ("housner nofile.toml", "[record] lacks file"),
+        ("record", "FILE"),
+        ("record site.V2A --units g", "says its unit is mm/s2"),
+    ] {
+        let err = dir.refuses(line);
+        assert!(err.contains(words), "{line}: {err}");
     }
 }

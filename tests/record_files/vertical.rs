@@ -1,13 +1,16 @@
 //! The vertical component: from the same file or another one, through the commands, remembered;
 //! refused where it does not fit.
 
-use std::fs;
-
 use serde_json::Value;
 use strong_motion::{ReadOptions, Record, VerticalFrom};
-use tempfile::TempDir;
 
-use crate::{tune, write};
+use crate::{
+    program::{self, Ended, TestFolder},
+    write,
+};
+
+const STRUCTURE: &str =
+    "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 2400.0\n";
 
 /// One column in m/s2.
 fn column(values: &[f64]) -> String {
@@ -15,9 +18,11 @@ fn column(values: &[f64]) -> String {
     format!("# units: m/s2\n{}\n", lines.join("\n"))
 }
 
-fn folder() -> TempDir {
-    let dir = TempDir::new().unwrap();
-    let put = |name: &str, text: String| fs::write(dir.path().join(name), text).unwrap();
+const RUN: &str = "--quiet --no-figures --no-front --out out";
+
+fn folder() -> TestFolder {
+    let dir = TestFolder::with(&[("sub/", "")]);
+    let put = |name: &str, text: String| dir.write(name, text);
     put("site.V2A", write::geonet(&[("N28W", 5000.0), ("S62W", 7000.0), ("Up", 6000.0)], false));
     put("fallen.V2A", write::geonet(&[("N28W", 5000.0), ("Down", 6000.0)], false));
     put("flat.V2A", write::geonet(&[("N28W", 5000.0), ("S62W", 7000.0)], false));
@@ -27,18 +32,15 @@ fn folder() -> TempDir {
     put("short.txt", column(&wave(3.0)[1..]));
     put("long.txt", column(&[wave(3.0), vec![9.0; 21]].concat()));
     put("strong.txt", column(&wave(14.0)));
-    let structure =
-        "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 2400.0\n";
     let tuning = "[tuning]\nobjective = \"arr\"\nmax_omega_hz = 60.0\ncandidates = 2\n";
     put(
         "case.toml",
-        format!("{structure}[record]\nfile = \"site.V2A\"\nvertical = \"auto\"\n{tuning}"),
+        format!("{STRUCTURE}[record]\nfile = \"site.V2A\"\nvertical = \"auto\"\n{tuning}"),
     );
-    fs::create_dir(dir.path().join("sub")).unwrap();
     put(
         "sub/case.toml",
         format!(
-            "{structure}[record]\nfile = \"../along.txt\"\ndt_s = 0.02\nvertical = \"../up.txt\"\n\
+            "{STRUCTURE}[record]\nfile = \"../along.txt\"\ndt_s = 0.02\nvertical = \"../up.txt\"\n\
                 {tuning}"
         ),
     );
@@ -54,7 +56,7 @@ fn the_vertical_component_of_the_same_file_counts_upwards() {
             vertical,
             ..ReadOptions::default()
         };
-        Record::read(&dir.path().join(file), &options).unwrap()
+        Record::read(&dir.path(file), &options).unwrap()
     };
     let both = read("site.V2A", None, Some(VerticalFrom::Auto));
     assert_eq!(
@@ -73,27 +75,25 @@ fn the_vertical_component_of_the_same_file_counts_upwards() {
 #[test]
 fn histories_take_it_and_the_line_says_so() {
     let dir = folder();
-    let run = |args: &[&str]| {
-        let (code, out, err) = tune(dir.path(), &[&["housner"], args].concat());
-        assert_eq!(code, 0, "{err}");
-        (out, err)
+    let run = |options: &str| {
+        let ended = dir.runs(&format!("housner {options}"));
+        (ended.stdout, ended.stderr)
     };
-    let (level, said) = run(&["case.toml", "--record", "site.V2A"]);
+    let (level, said) = run("case.toml --record site.V2A");
     assert!(!said.contains("vertical site"), "{said}");
-    let (with, said) = run(&["case.toml", "--record", "site.V2A", "--vertical", "auto"]);
+    let (with, said) = run("case.toml --record site.V2A --vertical auto");
     assert!(said.contains("; vertical site Up, peak 0.6") && with != level, "{said}");
-    assert_eq!(run(&["case.toml"]).0, with);
+    assert_eq!(run("case.toml").0, with);
     // a case that names the record leaves the vertical component out unless an option takes it
-    let text = fs::read_to_string(dir.path().join("case.toml")).unwrap();
-    fs::write(dir.path().join("across.toml"), text.replace("vertical = \"auto\"\n", "")).unwrap();
-    assert_eq!(run(&["across.toml"]).0, level);
-    assert_eq!(run(&["across.toml", "--vertical", "auto"]).0, with);
-    let columns = ["sub/case.toml", "--record", "along.txt", "--dt", "0.02"];
-    let (with, said) = run(&[&columns[..], &["--vertical", "up.txt"]].concat());
+    dir.write("across.toml", dir.text("case.toml").replace("vertical = \"auto\"\n", ""));
+    assert_eq!(run("across.toml").0, level);
+    assert_eq!(run("across.toml --vertical auto").0, with);
+    let columns = "sub/case.toml --record along.txt --dt 0.02 --vertical";
+    let (with, said) = run(&format!("{columns} up.txt"));
     assert!(said.contains("; vertical up, peak 0.2"), "{said}");
-    assert_eq!(run(&["sub/case.toml"]).0, with);
+    assert_eq!(run("sub/case.toml").0, with);
     // more than 1 g downwards
-    let (_, said) = run(&[&columns[..], &["--vertical", "strong.txt"]].concat());
+    let (_, said) = run(&format!("{columns} strong.txt"));
     assert!(said.contains(", leaves the ground at "), "{said}");
 }
 
@@ -101,35 +101,25 @@ fn histories_take_it_and_the_line_says_so() {
 fn a_run_shows_its_part_and_remembers_it() {
     let dir = folder();
     for case in ["case.toml", "sub/case.toml"] {
-        let (code, out, err) = tune(
-            dir.path(),
-            &["run", case, "--quiet", "--no-figures", "--no-front", "--out", "out"],
-        );
-        assert_eq!(code, 0, "{err}");
+        let out = dir.runs(&format!("run {case} {RUN}")).stdout;
         assert!(out.contains("; vertical "), "{out}");
-        let tables = fs::read_to_string(dir.path().join("out/decks/model_sap2000.s2k")).unwrap();
+        let tables = dir.text("out/decks/model_sap2000.s2k");
         // 203 samples, and the 0 that the function begins at
         assert!(
             tables.contains("LoadName=U3   Function=GROUND_MOTION_UP")
                 && tables.matches("Name=GROUND_MOTION_UP ").count() == 204,
             "{out}"
         );
-        let parameters: Value =
-            serde_json::from_slice(&fs::read(dir.path().join("out/parameters.json")).unwrap())
-                .unwrap();
+        let parameters = dir.json("out/parameters.json");
         assert!(parameters["record"]["vertical"]["pga_g"].as_f64().unwrap() > 0.2);
-        let findings = parameters["findings"].as_array().unwrap();
-        assert!(
-            findings.iter().any(|finding| finding["finding"] == "without_vertical"),
-            "{parameters}"
-        );
+        assert!(program::finding(&parameters, "without_vertical").is_some(), "{parameters}");
         assert!(
             parameters["verdict"]["housner_without_vertical"]["peak_ratio"].is_number(),
             "{parameters}"
         );
-        let (code, out, err) =
-            tune(&dir.path().join("sub"), &["simulate", "--parameters", "../out/parameters.json"]);
-        assert_eq!(code, 0, "{err}");
+        let simulate = "simulate --parameters ../out/parameters.json";
+        let Ended { stdout: out, stderr: err, .. } =
+            program::tune(&dir.path("sub"), simulate).well();
         assert!(
             err.contains("; vertical ") && err.contains("without the vertical component it "),
             "{err}"
@@ -137,31 +127,28 @@ fn a_run_shows_its_part_and_remembers_it() {
         let found: Value = serde_json::from_str(&out).unwrap();
         assert_eq!(found["nrmse_horizontal"], parameters["match"]["nrmse_horizontal"]);
         for deck in ["model_openseespy.py", "model_opensees.tcl"] {
-            let deck = fs::read_to_string(dir.path().join("out/decks").join(deck)).unwrap();
+            let deck = dir.text(&format!("out/decks/{deck}"));
             assert!(deck.contains("positive upwards") && !deck.contains("@VERTICAL"), "{deck}");
         }
     }
     // another vertical component than the one remembered
-    fs::write(dir.path().join("up.txt"), column(&write::wave(3.1, 1.1))).unwrap();
-    let (code, _, err) = tune(dir.path(), &["simulate", "--parameters", "out/parameters.json"]);
-    assert_eq!((code, err.lines().count()), (2, 1), "{err}");
+    dir.write("up.txt", column(&write::wave(3.1, 1.1)));
+    let err = dir.refuses("simulate --parameters out/parameters.json");
     assert!(err.contains("up.txt has changed since the springs were tuned"), "{err}");
 }
 
 #[test]
 fn where_the_body_leaves_the_ground_housner_ends_and_the_finite_elements_go_on() {
     let dir = folder();
-    let run = ["run", "sub/case.toml", "--quiet", "--no-figures", "--no-front", "--out", "out"];
-    assert_eq!(tune(dir.path(), &run).0, 0);
-    let record = ["--record", "along.txt", "--dt", "0.02", "--vertical", "strong.txt"];
-    let simulate = ["simulate", "--parameters", "out/parameters.json", "--out", "history.csv"];
-    let (code, out, err) = tune(dir.path(), &[&simulate[..], &record].concat());
-    assert_eq!(code, 0, "{err}");
+    dir.runs(&format!("run sub/case.toml {RUN}"));
+    let record = "--record along.txt --dt 0.02 --vertical strong.txt";
+    let Ended { stdout: out, stderr: err, .. } =
+        dir.runs(&format!("simulate --parameters out/parameters.json --out history.csv {record}"));
     assert!(err.contains("Housner's pivot leaves the ground at 1."), "{err}");
     let found: Value = serde_json::from_str(&out).unwrap();
     let compared = found["duration_s"].as_f64().unwrap();
     assert!(compared < 3.0, "{compared}");
-    let csv = fs::read_to_string(dir.path().join("history.csv")).unwrap();
+    let csv = dir.text("history.csv");
     let rows: Vec<&str> = csv.lines().skip(1).collect();
     assert_eq!(rows.len(), write::SAMPLES);
     let blank = rows.iter().position(|row| row.contains(",,,,")).unwrap();
@@ -172,13 +159,11 @@ fn where_the_body_leaves_the_ground_housner_ends_and_the_finite_elements_go_on()
 fn a_vertical_component_that_goes_on_after_the_record_is_cut_and_told() {
     let dir = folder();
     let of = |vertical: &str| {
-        let record = ["housner", "--record", "along.txt", "--dt", "0.02", "--vertical", vertical];
-        tune(dir.path(), &[&record[..], &["--out", "history.csv"]].concat())
+        let record = "housner --record along.txt --dt 0.02 --out history.csv";
+        dir.runs(&format!("{record} --vertical {vertical}"))
     };
-    let (code, same, _) = of("up.txt");
-    assert_eq!(code, 0);
-    let (code, out, err) = of("long.txt");
-    assert_eq!(code, 0, "{err}");
+    let same = of("up.txt").stdout;
+    let Ended { stdout: out, stderr: err, .. } = of("long.txt");
     let told = "along.txt: the vertical component, long, has 21 more samples than the record";
     assert!(err.contains(told), "{err}");
     // all but the component's name
@@ -188,43 +173,34 @@ fn a_vertical_component_that_goes_on_after_the_record_is_cut_and_told() {
 #[test]
 fn what_does_not_fit_is_refused_in_one_line() {
     let dir = folder();
-    let columns = ["housner", "--record", "along.txt", "--dt", "0.02", "--vertical"];
-    for (args, words) in [
-        (&["housner", "--vertical", "auto"][..], "name it with --record"),
+    for (line, words) in [
+        ("housner --vertical auto", "name it with --record"),
         (
-            &["housner", "--record", "flat.V2A", "--vertical", "auto"],
+            "housner --record flat.V2A --vertical auto",
             "flat.V2A: has no vertical component; name the",
         ),
+        ("housner --record site.V2A --component up --vertical auto", "taken as the horizontal"),
+        ("housner --record site.V2A --vertical flat.V2A", "flat.V2A: has no vertical component"),
+        ("housner --record site.V2A --vertical nowhere.V2A", "nowhere.V2A"),
         (
-            &["housner", "--record", "site.V2A", "--component", "up", "--vertical", "auto"],
-            "taken as the horizontal",
+            "housner --record along.txt --dt 0.02 --vertical auto",
+            "along.txt: has no vertical component",
         ),
         (
-            &["housner", "--record", "site.V2A", "--vertical", "flat.V2A"],
-            "flat.V2A: has no vertical component",
-        ),
-        (&["housner", "--record", "site.V2A", "--vertical", "nowhere.V2A"], "nowhere.V2A"),
-        (&[&columns[..], &["auto"]].concat(), "along.txt: has no vertical component"),
-        (
-            &[&columns[..], &["short.txt"]].concat(),
+            "housner --record along.txt --dt 0.02 --vertical short.txt",
             "short: the vertical component has 202 samples of 0.02 s, the record 203",
         ),
-        (&["run", "--no-record", "--vertical", "auto"], "--vertical"),
+        ("run --no-record --vertical auto", "--vertical"),
     ] {
-        let (code, out, err) = tune(dir.path(), args);
-        assert_eq!((code, out.as_str()), (2, ""), "{args:?}: {err}");
-        assert!(err.contains(words), "{args:?}: {err}");
-        assert!(args[0] == "run" || err.lines().count() == 1, "{args:?}: {err}");
+        let err = dir.refuses(line);
+        assert!(err.contains(words), "{line}: {err}");
     }
     for (section, words) in [
         ("vertical = \"auto\"\n", "[record] lacks file"),
         ("file = \"along.txt\"\ndt_s = 0.02\nvertical = 3\n", "case.toml, line"),
     ] {
-        let structure =
-            "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 2400.0\n";
-        fs::write(dir.path().join("case.toml"), format!("{structure}[record]\n{section}")).unwrap();
-        let (code, _, err) = tune(dir.path(), &["housner", "case.toml"]);
-        assert_eq!((code, err.lines().count()), (2, 1), "{err}");
+        dir.write("case.toml", format!("{STRUCTURE}[record]\n{section}"));
+        let err = dir.refuses("housner case.toml");
         assert!(err.contains(words), "{err}");
     }
 }

@@ -7,10 +7,7 @@ use dynamics::{
     spring::{Design, Springs},
 };
 use parameters::Parameters;
-use rocking::{
-    housner::{self, RockingOptions},
-    structure::Structure,
-};
+use rocking::{housner, structure::Structure};
 use strong_motion::Record;
 
 fn simulate(springs: &Springs<Design<f64>>, dt: f64, accel: &[f64]) -> History {
@@ -22,7 +19,7 @@ fn simulate(springs: &Springs<Design<f64>>, dt: f64, accel: &[f64]) -> History {
 /// The first 20 s of El Centro beside Housner.
 fn on_el_centro(springs: &Springs<Design<f64>>) -> Match {
     let (body, record) = (Structure::paper().body::<f64>(), Record::el_centro().truncated(20.0));
-    let rocking = housner::solve(&body, record.dt, &record.accel, &RockingOptions::default());
+    let rocking = housner::history(&body, record.dt, &record.accel);
     let history = simulate(springs, record.dt, &record.accel);
     Match::new(
         &body,
