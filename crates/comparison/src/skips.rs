@@ -28,6 +28,34 @@ pub struct Skip {
     pub same: String,
 }
 
+impl Skip {
+    /// Time both ways, and say what they agree in.
+    fn timed(
+        what: &'static str,
+        rounds: usize,
+        mut with: impl FnMut(),
+        mut without: impl FnMut(),
+        same: String,
+    ) -> Self {
+        let times = alternate(&mut [&mut with, &mut without], rounds);
+        Self { what, with: times[0], without: times[1], same }
+    }
+
+    /// A case followed at two controls: with the skip, and without it.
+    fn of_control(
+        what: &'static str,
+        bench: &BenchCase,
+        [skip, follow]: [Control; 2],
+        rounds: usize,
+    ) -> Self {
+        let (a, b) = (bench.simulate(skip), bench.simulate(follow));
+        let error = nrmse(&a.motion.u, &b.motion.u);
+        let same = format!("u to {error:.0e} (NRMSE), {} impacts", a.impacts());
+        let run = |control| move || drop(black_box(bench.simulate(control)));
+        Self::timed(what, rounds, run(skip), run(follow), same)
+    }
+}
+
 /// All skips that have a switch.
 pub fn all(rounds: usize) -> Vec<Skip> {
     vec![
@@ -54,14 +82,8 @@ fn silent(before: f64, factor: f64, after: f64) -> BenchCase {
 }
 
 fn rest(what: &'static str, bench: &BenchCase, rounds: usize) -> Skip {
-    let [skip, step] = [true, false].map(|skip_rest| Control { skip_rest, ..Control::default() });
-    let mut with = || drop(black_box(bench.simulate(skip)));
-    let mut without = || drop(black_box(bench.simulate(step)));
-    let times = alternate(&mut [&mut with, &mut without], rounds);
-    let (a, b) = (bench.simulate(skip), bench.simulate(step));
-    let same =
-        format!("u to {:.0e} (NRMSE), {} impacts", nrmse(&a.motion.u, &b.motion.u), a.impacts());
-    Skip { what, with: times[0], without: times[1], same }
+    let controls = [true, false].map(|skip_rest| Control { skip_rest, ..Control::default() });
+    Skip::of_control(what, bench, controls, rounds)
 }
 
 /// Watches like another observer, but never stops the run.
@@ -82,41 +104,25 @@ fn toppled(rounds: usize) -> Skip {
     let dt = bench.record.dt;
     let mut accel = vec![4.0; (3.0 / dt) as usize];
     accel.resize((33.0 / dt) as usize, 0.0);
-    let theta = housner::solve(&body, dt, &accel, &housner::RockingOptions::default()).theta;
+    let theta = housner::history(&body, dt, &accel).theta;
     let case = Analysis { accel: &accel, ..bench.case(1.0, Control::default()) };
     let watch = || ComparisonObserver::new(&body, &theta, &accel);
     let fallen = |last: (f64, f64)| last.0.abs() > body.alpha();
-    let mut with = || {
-        black_box(case.observe(&mut watch()));
-    };
-    let mut without = || {
-        black_box(case.observe(&mut NonStopping(watch())));
-    };
-    let times = alternate(&mut [&mut with, &mut without], rounds);
+    let with = || _ = black_box(case.observe(&mut watch()));
+    let without = || _ = black_box(case.observe(&mut NonStopping(watch())));
     let (mut stopped, mut non_stopping) = (watch(), NonStopping(watch()));
     case.observe(&mut stopped);
     case.observe(&mut non_stopping);
     let word = |fallen| if fallen { "topples" } else { "stands" };
     let same = format!("{}, {}", word(fallen(stopped.last)), word(fallen(non_stopping.0.last)));
-    Skip {
-        what: "toppled body (0.4 g for 3 s, then silence)",
-        with: times[0],
-        without: times[1],
-        same,
-    }
+    Skip::timed("toppled body (0.4 g for 3 s, then silence)", rounds, with, without, same)
 }
 
 /// Chains of a foot in the air, solved with the body or by themselves.
 fn open_foot(rounds: usize) -> Skip {
     let bench = BenchCase::damped();
-    let [skip, solve] = [true, false].map(|skip_open| Control { skip_open, ..Control::default() });
-    let mut with = || drop(black_box(bench.simulate(skip)));
-    let mut without = || drop(black_box(bench.simulate(solve)));
-    let times = alternate(&mut [&mut with, &mut without], rounds);
-    let (a, b) = (bench.simulate(skip), bench.simulate(solve));
-    let same =
-        format!("u to {:.0e} (NRMSE), {} impacts", nrmse(&a.motion.u, &b.motion.u), a.impacts());
-    Skip { what: "chains of an open foot", with: times[0], without: times[1], same }
+    let controls = [true, false].map(|skip_open| Control { skip_open, ..Control::default() });
+    Skip::of_control("chains of an open foot", &bench, controls, rounds)
 }
 
 /// Springs from stiff to soft, judged against Housner: abandoned when their running error exceeds
@@ -135,8 +141,7 @@ fn candidates(rounds: usize) -> Skip {
         })
         .collect();
     let (body, record) = (structure().body::<f64>(), BenchCase::arr().record);
-    let rocking =
-        housner::solve(&body, record.dt, &record.accel, &housner::RockingOptions::default());
+    let rocking = housner::history(&body, record.dt, &record.accel);
     let motion = rocking.motion(&body);
     let benchmark = Benchmark {
         body,
@@ -157,21 +162,11 @@ fn candidates(rounds: usize) -> Skip {
         }
         best
     };
-    let mut with = || {
-        black_box(best(true));
-    };
-    let mut without = || {
-        black_box(best(false));
-    };
-    let times = alternate(&mut [&mut with, &mut without], rounds);
+    let with = || _ = black_box(best(true));
+    let without = || _ = black_box(best(false));
     let ((a, i), (b, j)) = (best(true), best(false));
     let same = format!("candidates {i} and {j} win with {a:.6} and {b:.6}");
-    Skip {
-        what: "candidates that cannot win (18 springs)",
-        with: times[0],
-        without: times[1],
-        same,
-    }
+    Skip::timed("candidates that cannot win (18 springs)", rounds, with, without, same)
 }
 
 /// A search needs the motion at the samples only, not forces, energies and events.
@@ -191,14 +186,11 @@ fn history(rounds: usize) -> Skip {
         let finish = case.observe(&mut recorder);
         recorder.finish(finish)
     };
-    let mut with = || {
-        black_box(watched());
-    };
-    let mut without = || drop(black_box(kept()));
-    let times = alternate(&mut [&mut with, &mut without], rounds);
+    let with = || _ = black_box(watched());
+    let without = || drop(black_box(kept()));
     let end = kept().motion.u.last().copied().unwrap_or_default();
     let same = format!("last u differs by {:e} m", (watched() - end).abs());
-    Skip { what: "histories nobody asked for", with: times[0], without: times[1], same }
+    Skip::timed("histories nobody asked for", rounds, with, without, same)
 }
 
 #[cfg(test)]
