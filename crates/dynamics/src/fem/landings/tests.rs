@@ -63,24 +63,35 @@ fn a_foot_that_stops_a_fall_and_opens_again_has_landed() {
 
 #[test]
 fn the_history_s_end_is_no_impact_of_the_lean_it_cuts_short() {
-    let mut changes = ROCKING.to_vec();
-    changes.splice(3.., [(2.03, LEFT, true), (2.04, LEFT, false)]);
+    let changes = rocking_with(3.., [(2.03, LEFT, true), (2.04, LEFT, false)]);
     assert_eq!(impacts(&changes, 2.1), [(2.0, RIGHT)]);
     assert_eq!(impacts(&changes, 2.5), [(2.0, RIGHT)]);
 }
 
 fn impacts(changes: &[(f64, usize, bool)], end: f64) -> Vec<(f64, usize)> {
-    read(changes, end).0.iter().filter(|l| l.impact).map(|l| (l.time, l.foot)).collect()
+    impacts_of(&at_speeds(changes, |_| 0.0), end)
 }
 
 /// Leans on the left foot from 1 s, lands on the right at 2 s, leans on it from 2.01 s, lands
 /// on the left at 3 s.
 const ROCKING: [(f64, usize, bool); 4] =
     [(1.0, RIGHT, false), (2.0, RIGHT, true), (2.01, LEFT, false), (3.0, LEFT, true)];
+/// Its impacts.
+const LANDED: [(f64, usize); 2] = [(2.0, RIGHT), (3.0, LEFT)];
+
+/// The same, with other changes in place of some.
+fn rocking_with<const N: usize>(
+    place: impl std::ops::RangeBounds<usize>,
+    by: [(f64, usize, bool); N],
+) -> Vec<(f64, usize, bool)> {
+    let mut changes = ROCKING.to_vec();
+    changes.splice(place, by);
+    changes
+}
 
 #[test]
 fn every_lean_ends_in_an_impact_even_the_last_before_rest() {
-    assert_eq!(impacts(&ROCKING, 9.0), [(2.0, RIGHT), (3.0, LEFT)]);
+    assert_eq!(impacts(&ROCKING, 9.0), LANDED);
     let (landings, airborne) = read(&ROCKING, 9.0);
     assert_eq!(landings.iter().map(|l| l.lost).collect::<Vec<_>>(), [1.0, 6.0]);
     assert_eq!(landings[0].kinetic, 98.0);
@@ -96,18 +107,17 @@ fn a_foot_that_chatters_a_hundred_thousand_times_is_read_in_a_moment() {
         [(time, RIGHT, false), (time + 5e-7, RIGHT, true)]
     });
     changes.splice(3..3, chatter);
-    assert_eq!(impacts(&changes, 9.0), [(2.0, RIGHT), (3.0, LEFT)]);
+    assert_eq!(impacts(&changes, 9.0), LANDED);
     assert_eq!(read(&changes, 9.0).0.iter().filter(|l| l.bounced).count(), 100_000);
 }
 
 #[test]
 fn a_bouncing_foot_lands_once() {
-    let mut changes = ROCKING.to_vec();
-    changes.splice(
+    let changes = rocking_with(
         3..3,
         [(2.02, RIGHT, false), (2.05, RIGHT, true), (2.06, RIGHT, false), (2.07, RIGHT, true)],
     );
-    assert_eq!(impacts(&changes, 9.0), [(2.0, RIGHT), (3.0, LEFT)]);
+    assert_eq!(impacts(&changes, 9.0), LANDED);
     let (landings, airborne) = read(&changes, 9.0);
     assert_eq!(landings.iter().map(|l| l.bounced).collect::<Vec<_>>(), [true, true, false, false]);
     assert!((airborne - 0.04).abs() < 1e-15 && (landings[0].airborne - 0.04).abs() < 1e-15);
@@ -115,25 +125,22 @@ fn a_bouncing_foot_lands_once() {
 
 #[test]
 fn a_foot_that_bounces_before_the_other_lifts_landed_at_its_first_touch() {
-    let mut changes = ROCKING.to_vec();
-    changes.splice(2..2, [(2.002, RIGHT, false), (2.006, RIGHT, true)]);
-    assert_eq!(impacts(&changes, 9.0), [(2.0, RIGHT), (3.0, LEFT)]);
+    let changes = rocking_with(2..2, [(2.002, RIGHT, false), (2.006, RIGHT, true)]);
+    assert_eq!(impacts(&changes, 9.0), LANDED);
     assert!(read(&changes, 9.0).0[0].bounced);
 }
 
 #[test]
 fn the_old_foot_touching_again_is_no_impact_and_no_bounce() {
-    let mut changes = ROCKING.to_vec();
-    changes.splice(3..3, [(2.03, LEFT, true), (2.05, LEFT, false)]);
-    assert_eq!(impacts(&changes, 9.0), [(2.0, RIGHT), (3.0, LEFT)]);
+    let changes = rocking_with(3..3, [(2.03, LEFT, true), (2.05, LEFT, false)]);
+    assert_eq!(impacts(&changes, 9.0), LANDED);
     assert!(read(&changes, 9.0).0.iter().all(|l| !l.bounced));
 }
 
 #[test]
 fn a_body_that_turns_back_within_its_lean_has_no_impact() {
-    let mut changes = ROCKING.to_vec();
-    changes.splice(1..1, [(1.4, RIGHT, true), (1.43, RIGHT, false)]);
-    assert_eq!(impacts(&changes, 9.0), [(2.0, RIGHT), (3.0, LEFT)]);
+    let changes = rocking_with(1..1, [(1.4, RIGHT, true), (1.43, RIGHT, false)]);
+    assert_eq!(impacts(&changes, 9.0), LANDED);
     assert!(!read(&changes, 9.0).0[0].bounced);
 }
 
@@ -147,7 +154,7 @@ fn a_rest_between_two_leans_on_one_foot_is_an_impact() {
 #[test]
 fn a_landing_out_of_the_air_is_an_impact() {
     let changes = [(1.0, RIGHT, false), (1.98, LEFT, false), (2.0, RIGHT, true), (3.0, LEFT, true)];
-    assert_eq!(impacts(&changes, 9.0), [(2.0, RIGHT), (3.0, LEFT)]);
+    assert_eq!(impacts(&changes, 9.0), LANDED);
     let (landings, airborne) = read(&changes, 9.0);
     assert!((airborne - 0.02).abs() < 1e-15);
     assert!(landings.iter().all(|l| l.airborne == 0.0), "the flight comes before the first impact");
