@@ -22,7 +22,7 @@ use rocking::{
 
 use crate::{
     arrow::{ArrowArrayStream, Column, Columns},
-    numbers::{self, ratio},
+    numbers::{self, factors, ratio},
     record::{Record, checked_scales},
     rocking::{Solved, ended},
     said::value_error,
@@ -252,12 +252,7 @@ pub fn rock_all(
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<RockingTable> {
     let (structures, records) = (structures.all(), records.all());
-    let scales = match scales {
-        Some(scales) => {
-            numbers::one_or_more(&scales, "scales", "factors on the record, without unit")?
-        }
-        None => vec![1.0],
-    };
+    let scales = factors(scales)?;
     let records = beside(records, vertical.map(Several::all))?;
     for record in &records {
         checked_scales(record, &scales)?;

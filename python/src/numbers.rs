@@ -75,6 +75,13 @@ pub fn one_or_more(of: &Bound<'_, PyAny>, name: &str, what: &str) -> PyResult<Ve
     }
 }
 
+/// Factors on a record; one of 1 unless given.
+pub fn factors(given: Option<Bound<'_, PyAny>>) -> PyResult<Vec<f64>> {
+    given.map_or(Ok(vec![1.0]), |scales| {
+        one_or_more(&scales, "scales", "factors on the record, without unit")
+    })
+}
+
 /// A length of history (s), in the program's words if it is none.
 pub fn seconds(given: Option<f64>) -> PyResult<Option<f64>> {
     match given {

@@ -16,7 +16,8 @@ use rocking::{
 use crate::{
     Array,
     filed::Filed,
-    numbers::{self, ratio},
+    many::Several,
+    numbers::{factors, ratio},
     record::{Record, at_scale},
     structure::{Structure, hashed},
     times, view,
@@ -319,13 +320,6 @@ pub fn rigid_rocking(
     Ok(History::new(body, record.dt, rocking))
 }
 
-/// One or several.
-#[derive(FromPyObject)]
-pub enum Structures {
-    One(Structure),
-    Several(Vec<Structure>),
-}
-
 /// Housner's solutions on all cores: of several structures, or at several scales, or of as many
 /// pairs of both.
 ///
@@ -336,21 +330,12 @@ pub enum Structures {
 #[pyo3(signature = (structures, record, scales = None, restitution = None))]
 pub fn rigid_rocking_many(
     py: Python<'_>,
-    structures: Structures,
+    structures: Several<Structure>,
     record: &Record,
     scales: Option<Bound<'_, PyAny>>,
     restitution: Option<f64>,
 ) -> PyResult<Histories> {
-    let structures = match structures {
-        Structures::One(one) => vec![one],
-        Structures::Several(several) => several,
-    };
-    let scales = match scales {
-        Some(scales) => {
-            numbers::one_or_more(&scales, "scales", "factors on the record, without unit")?
-        }
-        None => vec![1.0],
-    };
+    let (structures, scales) = (structures.all(), factors(scales)?);
     let (bodies, options) = pairs(&structures, record, &scales, ratio(restitution)?)?;
     let (dt, accel) = (record.0.dt, &record.0.accel[..]);
     let n = bodies.len().max(options.len());
