@@ -36,18 +36,23 @@ pub trait FixedStepModel {
 
     /// The same in a trial that follows another one: a foot is a node of its own at the end of a
     /// leg, and stands where the iteration's linear equations put it, not where the leg turns to.
+    /// A model without legs that turn meets there as anywhere.
     fn meet_after(
         &self,
-        before: (&Self::Places, &Self::Vector),
+        _before: (&Self::Places, &Self::Vector),
         q: &Self::Vector,
         feet: &mut Self::Feet,
-    );
+    ) {
+        self.meet(&self.places(q), q, feet);
+    }
 
     /// The same at the end q of a step whose forces count at `places`, a part w of the step: the
     /// foot's own node goes on along a straight line, from where it was at the step's begin (and
     /// stays there if w is infinite). Contacts do not change that step any more, but the anchors
     /// that the next one finds.
-    fn meet_end(&self, places: &Self::Places, w: f64, q: &Self::Vector, feet: &mut Self::Feet);
+    fn meet_end(&self, places: &Self::Places, _w: f64, q: &Self::Vector, feet: &mut Self::Feet) {
+        self.meet(places, q, feet);
+    }
 
     /// Q + forces of the ground - M a of a trial and its places, at ground acceleration (a_g, a_v)
     /// (m/s2), a_v upwards; feet as they were met there. N, N m.

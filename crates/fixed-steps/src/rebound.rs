@@ -65,14 +65,6 @@ impl FixedStepModel for FallingMass {
         feet[0].closed = q[1] >= q[0];
     }
 
-    fn meet_after(&self, _: (&(), &[f64; 2]), q: &[f64; 2], feet: &mut [FixedFoot; 1]) {
-        self.meet(&(), q, feet);
-    }
-
-    fn meet_end(&self, (): &(), _: f64, q: &[f64; 2], feet: &mut [FixedFoot; 1]) {
-        self.meet(&(), q, feet);
-    }
-
     fn unbalance(
         &self,
         (trial, ()): (&Trial<[f64; 2]>, &()),

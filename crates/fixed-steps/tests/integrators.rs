@@ -30,10 +30,6 @@ impl FixedStepModel for Oscillator {
 
     fn meet(&self, (): &(), _: &[f64; 1], _: &mut [FixedFoot; 0]) {}
 
-    fn meet_after(&self, _: (&(), &[f64; 1]), _: &[f64; 1], _: &mut [FixedFoot; 0]) {}
-
-    fn meet_end(&self, (): &(), _: f64, _: &[f64; 1], _: &mut [FixedFoot; 0]) {}
-
     fn unbalance(
         &self,
         (trial, ()): (&Trial<[f64; 1]>, &()),
@@ -235,10 +231,6 @@ impl FixedStepModel for LinearChain {
     fn places(&self, _: &[f64; 2]) {}
 
     fn meet(&self, (): &(), _: &[f64; 2], _: &mut [FixedFoot; 0]) {}
-
-    fn meet_after(&self, _: (&(), &[f64; 2]), _: &[f64; 2], _: &mut [FixedFoot; 0]) {}
-
-    fn meet_end(&self, (): &(), _: f64, _: &[f64; 2], _: &mut [FixedFoot; 0]) {}
 
     fn unbalance(
         &self,

@@ -1,53 +1,29 @@
 //! An elastic pier in fixed steps, beside OpenSees and beside the finite elements that follow
 //! events.
 
-use dynamics::spring::{Chain, Design, Springs};
+use dynamics::spring::{Chain, Springs};
 use fixed_steps::{
-    ConvergenceTest, FixedStepAnalysis, FixedStepFrame, FixedStepModel, FixedStepOutcome,
-    Integrator, Iteration, StepSettings,
+    FixedStepAnalysis, FixedStepFrame, FixedStepModel, FixedStepOutcome, Integrator,
     kinematics::{TangentWeights, Trial},
 };
 use frames::{
-    beam::BeamSection,
     fem::{ElasticAnalysis, ElasticStart},
-    frame::{Cantilever, Footing, Frame, StraightMember},
+    frame::Frame,
 };
 use rocking::motion::nrmse;
 
-/// A mass of 600 t on a column of 12 m on a footing of 4 m; 2 Hz, eta_I its dashpot (N m2 s). The
-/// column begins at the footing's centre.
-fn pier(bending_damping: f64) -> Frame {
-    let section = BeamSection { bending_damping, ..BeamSection::elastic(1e10, 4e10) };
-    let footing = Footing::block(4.0, 1.2e5, 0.75, 0.75);
-    let column = StraightMember { section, elements: 1 };
-    Cantilever { mass: 6e5, inertia: None, height: 12.0, footing, column, consistent: false }
-        .layout()
-        .frame()
-        .unwrap()
-}
+use crate::common::{DT, newton, pier, pulse, units};
 
-fn units() -> Vec<Springs<Chain>> {
-    let vertical = Design::from_kc(0.3, 0.1, 0.75, 20.0);
-    let horizontal = Design::from_kc(0.3, 0.57, 1.86, 20.0);
-    vec![Springs { vertical, horizontal }.chains(1.2e5); 2]
-}
-
-/// A Ricker wavelet of 7 rad/s about 1 s.
-fn pulse(dt: f64) -> Vec<f64> {
-    let at = |t: f64| {
-        let square = (3.5 * (t - 1.0)).powi(2);
-        4.5 * (1.0 - 2.0 * square) * (-square).exp()
-    };
-    (0..(3.0 / dt) as usize).map(|i| at(i as f64 * dt)).collect()
+fn corners() -> Vec<Springs<Chain>> {
+    vec![units(1.2e5, 20.0); 2]
 }
 
 /// Horizontal displacement of the mass at the samples.
 fn top(frame: &Frame, integrator: Integrator, step: f64, below: f64) -> Vec<f64> {
-    let (units, accel) = (units(), pulse(0.01));
+    let (units, accel) = (corners(), pulse(4.5));
     let model = FixedStepFrame::new(frame, &units).unwrap();
-    let iteration = Iteration { constant: 0, newton: 30, test: ConvergenceTest::Increment(below) };
-    let settings = StepSettings { iteration, ..StepSettings::new(integrator, step) };
-    let found = FixedStepAnalysis::new(&model, settings, 0.01, &accel).history().unwrap();
+    let settings = newton(integrator, step, below);
+    let found = FixedStepAnalysis::new(&model, settings, DT, &accel).history().unwrap();
     assert_eq!(found.outcome, FixedStepOutcome::Finished, "{integrator}, {step}");
     found.coordinates.iter().map(|q| frame.displacement(1, q)[0]).collect()
 }
@@ -83,8 +59,8 @@ fn opensees_has_the_same_history() {
 /// Short steps come to the history that follows events (`frames::fem`).
 #[test]
 fn short_steps_come_to_what_follows_events() {
-    let (frame, units, accel) = (pier(1e8), units(), pulse(0.01));
-    let history = ElasticAnalysis::new(&frame, &units, ElasticStart::Standing, 0.01, &accel)
+    let (frame, units, accel) = (pier(1e8), corners(), pulse(4.5));
+    let history = ElasticAnalysis::new(&frame, &units, ElasticStart::Standing, DT, &accel)
         .simulate()
         .unwrap();
     let events: Vec<f64> = history.q.iter().map(|q| frame.displacement(1, q)[0]).collect();
@@ -98,7 +74,7 @@ fn short_steps_come_to_what_follows_events() {
 /// It stands still under its weight, and the matrix is the derivative of the unbalance.
 #[test]
 fn it_stands_and_its_matrix_is_the_derivative() {
-    let (frame, units) = (pier(1e8), units());
+    let (frame, units) = (pier(1e8), corners());
     let model = FixedStepFrame::new(&frame, &units).unwrap();
     let (mut q, mut feet) = model.standing().unwrap();
     let n = q.len();

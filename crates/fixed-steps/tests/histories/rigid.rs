@@ -1,65 +1,31 @@
 //! The rigid body in fixed steps beside other programs, and what must hold whatever the steps.
 
-use dynamics::{
-    fem::{Analysis, Control, Start},
-    spring::{Chain, Design, Springs},
-};
+use dynamics::{fem::Analysis, spring::Chain};
 use fixed_steps::{
     ConvergenceTest, FixedStepAnalysis, FixedStepBody, FixedStepOutcome, FixedStepSprings,
     Integrator, Iteration, StepSettings,
 };
-use rocking::{
-    motion::nrmse,
-    structure::{Body, Structure},
-};
+use rocking::{motion::nrmse, structure::Structure};
 
-fn block() -> Body<f64> {
-    Structure::block(2.6, 0.7, 1e3).unwrap().body()
-}
-
-fn units(body: &Body<f64>, hz: f64) -> Springs<Chain> {
-    let vertical = Design::from_kc(0.3, 0.1, 0.75, hz);
-    let horizontal = Design::from_kc(0.3, 0.57, 1.86, hz);
-    Springs { vertical, horizontal }.chains(body.mass)
-}
-
-/// A Ricker wavelet of 7 rad/s about 1 s, that rocks the block: 3 s.
-fn pulse(peak: f64, dt: f64) -> Vec<f64> {
-    let at = |t: f64| {
-        let square = (3.5 * (t - 1.0)).powi(2);
-        peak * (1.0 - 2.0 * square) * (-square).exp()
-    };
-    (0..(3.0 / dt) as usize).map(|i| at(i as f64 * dt)).collect()
-}
+use crate::common::{DT, block, newton, pulse, units};
 
 fn tight(integrator: Integrator, step: f64) -> StepSettings {
-    let iteration = Iteration { constant: 0, newton: 30, test: ConvergenceTest::Increment(1e-9) };
-    StepSettings { iteration, ..StepSettings::new(integrator, step) }
+    newton(integrator, step, 1e-9)
 }
 
 /// With short steps every integrator comes to the history of the finite elements that follow events
 /// (`dynamics::fem`), an independent program.
 #[test]
 fn short_steps_come_to_what_follows_events() {
-    let (body, dt) = (block(), 0.01);
-    let (springs, accel) = (units(&body, 20.0), pulse(4.5, dt));
-    let events = Analysis {
-        body,
-        springs,
-        start: Start::Settled,
-        dt,
-        accel: &accel,
-        vertical: &[],
-        scale: 1.0,
-        control: Control::default(),
-    }
-    .simulate();
+    let body = block();
+    let (springs, accel) = (units(body.mass, 20.0), pulse(4.5));
+    let events = Analysis::new(body, springs, DT, &accel).simulate();
     let model = FixedStepBody::new(&body, &springs);
     assert!(events.motion.theta.iter().any(|theta| theta.abs() > 0.2 * body.alpha()));
     for integrator in [Integrator::AVERAGE_ACCELERATION, Integrator::HHT_MOST, Integrator::Trbdf2] {
         let error = |step: f64| {
             let history =
-                FixedStepAnalysis::new(&model, tight(integrator, step), dt, &accel).history();
+                FixedStepAnalysis::new(&model, tight(integrator, step), DT, &accel).history();
             assert_eq!(history.outcome, FixedStepOutcome::Finished, "{integrator}, {step}");
             nrmse(&history.motion.u, &events.motion.u)
         };
@@ -72,12 +38,12 @@ fn short_steps_come_to_what_follows_events() {
 /// block on plain units of 20 Hz under the pulse, stepped by 1e-3 s.
 #[test]
 fn opensees_has_the_same_history() {
-    let (body, dt) = (block(), 0.01);
-    let (springs, accel) = (units(&body, 20.0), pulse(4.5, dt));
+    let body = block();
+    let (springs, accel) = (units(body.mass, 20.0), pulse(4.5));
     let model = FixedStepBody::new(&body, &springs);
     for (name, at) in OPENSEES {
         let settings = tight(name.parse().unwrap(), 1e-3);
-        let history = FixedStepAnalysis::new(&model, settings, dt, &accel).history();
+        let history = FixedStepAnalysis::new(&model, settings, DT, &accel).history();
         for (i, u) in at {
             let found = history.motion.u[i];
             assert!((found - u).abs() < 1e-6 * 0.1, "{name}, sample {i}: {found:e}, {u:e}");
@@ -102,13 +68,13 @@ const OPENSEES: [(&str, [(usize, f64); 3]); 4] = [
 /// The mirrored record gives the mirrored history.
 #[test]
 fn left_is_right() {
-    let (body, dt) = (block(), 0.01);
-    let accel = pulse(4.5, dt);
+    let body = block();
+    let accel = pulse(4.5);
     let mirrored: Vec<f64> = accel.iter().map(|a| -a).collect();
     let springs = FixedStepSprings::of(&body, 1e-3, Integrator::Trbdf2).unwrap();
     let model = FixedStepBody::new(&body, &springs.chains());
     let [a, b] = [&accel, &mirrored]
-        .map(|accel| FixedStepAnalysis::new(&model, springs.settings(), dt, accel).history());
+        .map(|accel| FixedStepAnalysis::new(&model, springs.settings(), DT, accel).history());
     let back: Vec<f64> = b.motion.u.iter().map(|u| -u).collect();
     assert!(nrmse(&back, &a.motion.u) < 1e-6);
     assert!(nrmse(&b.motion.v, &a.motion.v) < 1e-6);
@@ -119,14 +85,14 @@ fn left_is_right() {
 #[test]
 fn a_slow_push_upwards_sinks_it() {
     let body = block();
-    let springs = units(&body, 20.0);
+    let springs = units(body.mass, 20.0);
     let model = FixedStepBody::new(&body, &springs);
-    let (dt, push) = (0.01, 2.0);
+    let push = 2.0;
     let vertical: Vec<f64> = (0..600).map(|i| push * (i as f64 / 300.0).min(1.0)).collect();
     let accel = vec![0.0; 600];
     let analysis = FixedStepAnalysis {
         vertical: &vertical,
-        ..FixedStepAnalysis::new(&model, tight(Integrator::HHT_MOST, 1e-2), dt, &accel)
+        ..FixedStepAnalysis::new(&model, tight(Integrator::HHT_MOST, 1e-2), DT, &accel)
     };
     let history = analysis.history();
     let Chain { k2, m2, .. } = springs.vertical;
@@ -147,25 +113,24 @@ fn giving_up_has_a_time_and_substeps_help() {
     )
     .unwrap()
     .body;
-    let model = FixedStepBody::new(&body, &units(&body, 160.0));
-    let dt = 0.01;
-    let accel = pulse(3.0, dt);
+    let model = FixedStepBody::new(&body, &units(body.mass, 160.0));
+    let accel = pulse(3.0);
     let settings = tight(Integrator::AVERAGE_ACCELERATION, 1e-3);
-    let history = FixedStepAnalysis::new(&model, settings, dt, &accel).history();
+    let history = FixedStepAnalysis::new(&model, settings, DT, &accel).history();
     let gave_up = history.through().unwrap_err();
     assert!(gave_up.time > 0.0 && gave_up.time < 3.0 && gave_up.step == 1e-3, "{gave_up:?}");
     assert!(gave_up.to_string().contains("no convergence at"), "{gave_up}");
-    assert_eq!(history.motion.len(), (gave_up.time / dt + 1e-9) as usize + 1);
+    assert_eq!(history.motion.len(), (gave_up.time / DT + 1e-9) as usize + 1);
     let finer =
-        FixedStepAnalysis::new(&model, settings.with_substeps(1.0 / 1024.0), dt, &accel).history();
+        FixedStepAnalysis::new(&model, settings.with_substeps(1.0 / 1024.0), DT, &accel).history();
     assert!(finer.motion.len() > history.motion.len() && finer.work.failed > 0, "{:?}", finer.work);
 }
 
 /// Constant-stiffness iterations arrive where Newton's do.
 #[test]
 fn iterations_of_both_kinds_arrive_at_the_same_place() {
-    let (body, dt) = (block(), 0.01);
-    let (springs, accel) = (units(&body, 20.0), pulse(4.5, dt));
+    let body = block();
+    let (springs, accel) = (units(body.mass, 20.0), pulse(4.5));
     let model = FixedStepBody::new(&body, &springs);
     let newton = tight(Integrator::Trbdf2, 1e-3);
     let weight = body.mass * 9.81;
@@ -175,7 +140,7 @@ fn iterations_of_both_kinds_arrive_at_the_same_place() {
         Iteration { constant: 0, newton: 40, test: ConvergenceTest::Unbalance(1e-9 * weight) },
     ]
     .map(|iteration| {
-        FixedStepAnalysis::new(&model, StepSettings { iteration, ..newton }, dt, &accel).history()
+        FixedStepAnalysis::new(&model, StepSettings { iteration, ..newton }, DT, &accel).history()
     });
     for history in &all[1..] {
         assert_eq!(history.outcome, FixedStepOutcome::Finished);
@@ -185,18 +150,18 @@ fn iterations_of_both_kinds_arrive_at_the_same_place() {
     assert!(all[1].work.iterations > all[0].work.iterations);
     // SAP2000's own tolerance is looser
     let sap = StepSettings { iteration: Iteration::sap2000(weight), ..newton };
-    let history = FixedStepAnalysis::new(&model, sap, dt, &accel).history();
+    let history = FixedStepAnalysis::new(&model, sap, DT, &accel).history();
     assert!(nrmse(&history.motion.u, &all[0].motion.u) < 0.02);
 }
 
 /// A body that topples lies on the ground, and the history ends.
 #[test]
 fn a_toppled_body_ends_the_history() {
-    let (body, dt) = (block(), 0.01);
+    let body = block();
     let accel = vec![4.0; 600];
     let springs = FixedStepSprings::of(&body, 1e-3, Integrator::BackwardEuler).unwrap();
     let model = FixedStepBody::new(&body, &springs.chains());
-    let history = FixedStepAnalysis::new(&model, springs.settings(), dt, &accel).history();
+    let history = FixedStepAnalysis::new(&model, springs.settings(), DT, &accel).history();
     assert!(
         matches!(history.outcome, FixedStepOutcome::Fallen { time } if time > 0.5 && time < 6.0),
         "{:?}",
