@@ -9,7 +9,7 @@ use decks::{
     ACCURACY, CornerProgram, DeckFormat, ExportError, SteppedDeck, Stepping, deck_of, stepped_deck,
     with_inertia,
 };
-use frames::fem::{ElasticAnalysis, ElasticStart};
+use frames::fem::ElasticAnalysis;
 use parameters::{Parameters, elastic::ElasticParameters, program::ProgramRow};
 use run_folder::{
     elastic::{deck, stepped_deck as stepped_deck_of},
@@ -195,16 +195,7 @@ fn elastic(
         (_, None) => return Err(ExportError::NoProgram.into()),
     }
     let springs = parameters.chains();
-    let case = ElasticAnalysis {
-        vertical: record.up(),
-        ..ElasticAnalysis::new(
-            &assembled.frame,
-            &springs,
-            ElasticStart::Standing,
-            record.dt,
-            &record.accel,
-        )
-    };
+    let case = ElasticAnalysis::on_record(&assembled.frame, &springs, &record);
     let history = case.simulate().map_err(CommandError::result)?;
     let text = deck(&assembled, &springs, &record, (&history, until), (o.format, o.accuracy))?;
     Ok(ExportedDeck { text, record, line: excitation.line() })

@@ -5,7 +5,7 @@ use super::{
     assembled::{Assembled, Sway, errors},
     design_forces::{StructureForces, parts},
     ensemble::Ensemble,
-    fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
+    fem::{ElasticAnalysis, ElasticHistory},
     frame::{EquilibriumError, Frame},
     reference::{ElasticRocking, FOLLOWED, GroundAcceleration, ReferenceOutcome, RestError, TRIED},
     rigid::RigidForces,
@@ -127,12 +127,7 @@ fn follow(
     record: &Record,
     parts: usize,
 ) -> Result<ElasticHistory, EquilibriumError> {
-    ElasticAnalysis {
-        vertical: record.up(),
-        parts,
-        ..ElasticAnalysis::new(frame, springs, ElasticStart::Standing, record.dt, &record.accel)
-    }
-    .simulate()
+    ElasticAnalysis { parts, ..ElasticAnalysis::on_record(frame, springs, record) }.simulate()
 }
 
 impl Reference {

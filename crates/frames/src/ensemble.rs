@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     assembled::{Assembled, Sway},
-    fem::{ElasticAnalysis, ElasticStart},
+    fem::ElasticAnalysis,
     reference::{GroundAcceleration, ReferenceOptions, ReferenceOutcome, RestError, Stop, rock},
 };
 use dynamics::{
@@ -174,20 +174,8 @@ fn on_springs(
     record: &Record,
     scale: f64,
 ) -> Near {
-    let whole = ElasticAnalysis::new(
-        &assembled.frame,
-        springs,
-        ElasticStart::Standing,
-        record.dt,
-        &record.accel,
-    );
-    let case = ElasticAnalysis {
-        vertical: record.up(),
-        scale,
-        control: Control::search(),
-        forces: false,
-        ..whole
-    };
+    let whole = ElasticAnalysis::on_record(&assembled.frame, springs, record);
+    let case = ElasticAnalysis { scale, control: Control::search(), forces: false, ..whole };
     let Ok(history) = case.simulate() else { return Near::Lost };
     match history.outcome {
         HistoryOutcome::Completed => {

@@ -44,6 +44,7 @@ use dynamics::{
     fem::{Control, HistoryOutcome, Work},
     spring::{Chain, Springs},
 };
+use strong_motion::Record;
 
 /// The default of [`Control::tolerance`], at which the account, whose residual it holds below 50
 /// times this, closes to 1e-6. 20 s of El Centro, piers of 1.5 and 2 Hz, NRMSE against 1e-10: 1e-5
@@ -152,6 +153,12 @@ impl<'a> ElasticAnalysis<'a> {
             forces: true,
             parts: 0,
         }
+    }
+
+    /// From rest on a record, both its components.
+    pub fn on_record(frame: &'a Frame, springs: &'a [Springs<Chain>], record: &'a Record) -> Self {
+        let start = ElasticStart::Standing;
+        Self { vertical: record.up(), ..Self::new(frame, springs, start, record.dt, &record.accel) }
     }
 
     /// Run the case and keep its history.

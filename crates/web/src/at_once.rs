@@ -16,7 +16,7 @@ use cases::{Case, ElasticCase};
 use dynamics::fem::HistoryOutcome;
 use frames::{
     assembled::Assembled,
-    fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
+    fem::{ElasticAnalysis, ElasticHistory},
 };
 use report::{Taken, Unit, filed, rigid::at_once::RunAtOnce, sentence};
 use results::{Finding, Peaks};
@@ -59,16 +59,7 @@ fn elastic(case: &ElasticCase) -> Result<Said, WebError> {
     let assembled = Assembled::with_members(case.structure, case.members)?;
     let record = case.excitation.used()?;
     let springs = springs_of(case, &assembled)?;
-    let analysis = ElasticAnalysis {
-        vertical: record.up(),
-        ..ElasticAnalysis::new(
-            &assembled.frame,
-            &springs.corners,
-            ElasticStart::Standing,
-            record.dt,
-            &record.accel,
-        )
-    };
+    let analysis = ElasticAnalysis::on_record(&assembled.frame, &springs.corners, &record);
     let fem = analysis.simulate().map_err(frames::answer::AnswerError::from)?;
     let body = case.structure.body();
     let uplift_g = assembled.uplift_g().unwrap_or(body.half_width / body.height);
@@ -164,7 +155,7 @@ fn peaks(assembled: &Assembled, fem: &ElasticHistory) -> Peaks {
         .map(|(top, (drift, rotation))| top - drift * rotation.cos());
     let height = report::elastic::top_height(&assembled.structure);
     // touches of corners within a tenth of 1/p are one impact, as in the whole run
-    let rest = report::elastic::SAME_IMPACT / assembled.structure.body().p_squared().sqrt();
+    let rest = report::elastic::SAME_IMPACT / assembled.structure.body().p();
     let touches = fem.contacts.iter().filter(|contact| contact.touches).map(|contact| contact.time);
     Peaks {
         top_displacement_m,

@@ -5,8 +5,7 @@ use crate::{
     assembled::Assembled,
     design_forces::ForcesTogether,
     fem::{
-        ElasticAnalysis, ElasticHistory, ElasticStart, FineColumn, FineSeries, RunningPeaks,
-        StepForces, low_pass,
+        ElasticAnalysis, ElasticHistory, FineColumn, FineSeries, RunningPeaks, StepForces, low_pass,
     },
     frame::{EquilibriumError, Frame},
     structure::ElasticStructure,
@@ -60,10 +59,9 @@ pub(super) fn follow(
     record: &Record,
 ) -> Result<ElasticHistory, EquilibriumError> {
     ElasticAnalysis {
-        vertical: record.up(),
         forces: false,
         parts: parts(structure, record.dt),
-        ..ElasticAnalysis::new(frame, springs, ElasticStart::Standing, record.dt, &record.accel)
+        ..ElasticAnalysis::on_record(frame, springs, record)
     }
     .simulate()
 }

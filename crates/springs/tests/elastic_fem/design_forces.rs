@@ -82,17 +82,8 @@ fn shear_is_sampled_along_the_column_and_is_what_is_above_times_the_acceleration
     )
     .unwrap();
     let springs = springs(&stand(&model).unwrap(), 1e-5, landing_speed(&model.structure), 1.0);
-    let analysis = ElasticAnalysis {
-        parts: 1,
-        ..ElasticAnalysis::new(
-            &model.frame,
-            &springs.corners,
-            ElasticStart::Standing,
-            record.dt,
-            &record.accel,
-        )
-    };
-    let history = analysis.simulate().unwrap();
+    let on_record = ElasticAnalysis::on_record(&model.frame, &springs.corners, &record);
+    let history = ElasticAnalysis { parts: 1, ..on_record }.simulate().unwrap();
     let (q, fine) = (history.q.last().unwrap(), history.fine.unwrap());
     let [column] = fine.columns.as_slice() else { panic!("one column") };
     let length = HEAVY_COLUMN.height_m - HEAVY_COLUMN.footing_height_m;
@@ -248,7 +239,7 @@ fn hold_forces_on_other_motions(column_mass_kg: f64, elements: Option<usize>) {
     let forces = ColumnForces::of(&structure);
     let stiff = stiffer(&stiffer(&tuned.springs.corners));
     let body = structure.body();
-    let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
+    let (p, alpha) = (body.p(), body.alpha());
     let trials = (0..8).filter_map(|i| {
         ElasticTrial::shaken(&model, &synthetic::record(77, i, p, alpha), &Effort::unbounded())
             .trial()
