@@ -101,7 +101,7 @@ fn main() -> Result<(), BenchError> {
                 let settings = program.settings(standing.mass * uplift);
                 let errors = errors_on(suite, &springs, settings, &Effort::unbounded())
                     .ok_or("no motion can be predicted")?;
-                let p_dt = body.p_squared().sqrt() * STEP;
+                let p_dt = body.p() * STEP;
                 told.push(format!("{:.0} ({})", errors.quantile(0.5) / p_dt, errors.lost()));
                 lost += errors.lost();
             }

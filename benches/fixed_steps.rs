@@ -131,7 +131,7 @@ fn over_steps() -> Result<(), BenchError> {
     let mut sheets = Vec::new();
     println!("median NRMSE over p dt; motions lost");
     for (name, body) in bodies()? {
-        let p = body.p_squared().sqrt();
+        let p = body.p();
         let of = WellConditioned::of_seed(&body, SEED, MOTIONS, LOOKED_AT);
         let floor: Vec<(f64, f64)> = STEPS.iter().map(|dt| (*dt, FLOOR * p * dt)).collect();
         let mut series = vec![("floor, 13 p dt".to_string(), floor)];
@@ -206,7 +206,7 @@ fn search() -> Result<(), BenchError> {
         "median NRMSE over p dt at {SEARCH_STEP} s: a run's springs, the best of {EVALUATIONS}"
     );
     for (name, body) in bodies()? {
-        let p_dt = body.p_squared().sqrt() * SEARCH_STEP;
+        let p_dt = body.p() * SEARCH_STEP;
         let chosen_on = WellConditioned::of_seed(&body, SEARCHED_ON, MOTIONS, LOOKED_AT);
         let judged_on = WellConditioned::of_seed(&body, SEED, MOTIONS, LOOKED_AT);
         let suites = Suites::of_seed(suite::SEED, &body, body.restitution(), None);
@@ -260,7 +260,7 @@ fn over_bodies(
     for &number in numbers {
         let (mut medians, mut lost, mut count) = (Vec::new(), 0, 0);
         for (of, step) in suites.iter().flat_map(|of| CHOSEN_ON_STEPS.map(|step| (of, step))) {
-            let p_dt = of.body.p_squared().sqrt() * step;
+            let p_dt = of.body.p() * step;
             let found = if p_dt < LONGEST { errors(number, of, step) } else { None };
             if let Some(errors) = found {
                 medians.push(errors.quantile(0.5) / p_dt);
@@ -310,7 +310,7 @@ fn events() -> Result<(), BenchError> {
     println!("median NRMSE over p dt (lost): without, with event-to-event stepping; iterations");
     for (name, body) in bodies()? {
         for step in EVENT_STEPS {
-            let (own, p_dt) = (design(&body, step), body.p_squared().sqrt() * step);
+            let (own, p_dt) = (design(&body, step), body.p() * step);
             for (program_name, name_of, integrator) in EVENT_PROGRAMS {
                 let body = FixedStepSprings::designed(&body, step, integrator, &own)?.body;
                 let of = WellConditioned::of_seed(&body, SEED, EVENT_MOTIONS, 960);

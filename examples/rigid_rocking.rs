@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!(
         "alpha {:.4} rad, p {:.3} 1/s, restitution by equation 2 {:.4}",
         body.alpha(),
-        body.p_squared().sqrt(),
+        body.p(),
         body.restitution()
     );
 

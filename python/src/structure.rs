@@ -116,7 +116,7 @@ impl Structure {
     /// sqrt(m g R/I0), 1/s.
     #[getter]
     fn p(&self) -> f64 {
-        self.body().p_squared().sqrt()
+        self.body().p()
     }
 
     /// Velocity ratio of a landing, without unit.

@@ -129,7 +129,7 @@ pub fn validate(
         duration_s: duration,
         model: JudgedModel::Events { springs: springs.chains(), control: Control::default() },
     };
-    let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
+    let (p, alpha) = (body.p(), body.alpha());
     let validation = interruptible(py, |stop| {
         let record = |i: usize| {
             stop.check();
@@ -185,7 +185,7 @@ pub fn synthetic_records(
     seed: u64,
 ) -> PyResult<Vec<Record>> {
     let body = structure.body();
-    let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
+    let (p, alpha) = (body.p(), body.alpha());
     made(py, n, |i| synthetic::record(seed, i, p, alpha))
 }
 
@@ -201,6 +201,6 @@ pub fn earthquake_records(
     n: usize,
     seed: u64,
 ) -> PyResult<Vec<Record>> {
-    let p = structure.body().p_squared().sqrt();
+    let p = structure.body().p();
     made(py, n, |i| synthetic::earthquake(seed, i, p))
 }

@@ -273,7 +273,7 @@ pub fn run(o: &ValidateOptions) -> Result<(), CommandError> {
         synthetic: o.synthetic.unwrap_or(0) as usize,
         earthquakes: o.earthquakes.unwrap_or(0) as usize,
         seed: o.seed,
-        p: body.p_squared().sqrt(),
+        p: body.p(),
         alpha: body.alpha(),
     };
     let left_out = source.check();

@@ -77,7 +77,7 @@ fn answer(asked: &Asked) -> Result<Value, Box<dyn Error>> {
     });
     match (&body, asked) {
         (Some(body), Asked { motions: Some(count), .. }) => {
-            let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
+            let (p, alpha) = (body.p(), body.alpha());
             let all = synthetic::suite(*count, asked.seed.unwrap_or(1), p, alpha);
             Ok(all
                 .map(|record| json!({"name": record.name, "dt": record.dt, "accel": record.accel}))

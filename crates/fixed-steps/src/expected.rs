@@ -54,7 +54,7 @@ impl ExpectedError {
         dt: f64,
         integrator: &Integrator,
     ) -> Self {
-        let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
+        let (p, alpha) = (body.p(), body.alpha());
         let omega_e = (springs.vertical.in_series() / body.mass).sqrt();
         let floor = FLOOR * p * dt;
         let stance = STANCE * (p / (alpha * omega_e)).powi(2);
@@ -68,7 +68,7 @@ impl ExpectedError {
 
 /// The step that a median error needs, with any springs: accuracy/(13 p) (s).
 pub fn step_for(body: &Body<f64>, accuracy: f64) -> f64 {
-    accuracy / (FLOOR * body.p_squared().sqrt())
+    accuracy / (FLOOR * body.p())
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 use dynamics::spring::{Chain, Springs};
 use rocking::{
     conditioning::Conditioning,
-    housner::{RockingOptions, RockingOutcome, solve},
+    housner::{RockingOptions, RockingOutcome, history},
     motion::{largest_magnitude, nrmse},
     statistics::quantile,
     structure::Body,
@@ -44,7 +44,7 @@ impl ReferenceHistory {
     /// Of a motion, if it rocks the body without toppling it; horizontal motion, equation 2's
     /// restitution.
     pub fn new(body: &Body<f64>, dt: f64, accel: Vec<f64>) -> Option<Self> {
-        let rocking = solve(body, dt, &accel, &RockingOptions::default());
+        let rocking = history(body, dt, &accel);
         let stands = rocking.outcome == RockingOutcome::Rocked && !rocking.impacts.is_empty();
         stands.then(|| Self { dt, u: rocking.motion(body).u, accel })
     }
@@ -97,7 +97,7 @@ impl WellConditioned {
     /// whose history hardly depends on its width, the record's scale and the restitution; of
     /// `looked_at` at most.
     pub fn of_seed(body: &Body<f64>, seed: u64, count: usize, looked_at: usize) -> Self {
-        let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
+        let (p, alpha) = (body.p(), body.alpha());
         let reference = |index: usize| {
             let record = synthetic::record(seed, index, p, alpha);
             let reference = ReferenceHistory::new(body, record.dt, record.accel)?;

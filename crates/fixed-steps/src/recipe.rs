@@ -69,8 +69,7 @@ impl FixedStepDesign {
 
     /// Omega_n of the vertical unit, sqrt(k1/m) (rad/s).
     pub fn omega_n(&self, body: &Body<f64>, step: f64) -> f64 {
-        let in_series =
-            self.stance * body.p_squared().sqrt() / (body.alpha() * body.alpha() * step);
+        let in_series = self.stance * body.p() / (body.alpha() * body.alpha() * step);
         (in_series * (1.0 + self.vertical.k) / self.vertical.k).sqrt()
     }
 
@@ -266,7 +265,7 @@ mod tests {
     #[test]
     fn the_closed_form_is_what_it_says() {
         let body = Structure::block(2.6, 0.7, 1e3).unwrap().body::<f64>();
-        let (p, alpha, step) = (body.p_squared().sqrt(), body.alpha(), 2.5e-4);
+        let (p, alpha, step) = (body.p(), body.alpha(), 2.5e-4);
         let springs = FixedStepSprings::of(&body, step, Integrator::Trbdf2).unwrap();
         assert_eq!(springs.body.inertia, body.inertia);
         let Springs { vertical, horizontal } = springs.chains();

@@ -47,7 +47,7 @@ pub struct Band {
     #[serde(default)]
     pub g_low: f64,
     /// Where the band ends, g = omega/Omega_n [-]; no end unless given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub g_high: Option<f64>,
     /// What the band asks.
     pub kind: BandKind,

@@ -196,7 +196,7 @@ fn nine_digits(x: f64) -> f64 {
 /// The springs that the geometry of a body gives at an Omega_n/p.
 pub fn springs_at_stiffness(body: &Body<f64>, stiffness: f64) -> Option<Springs<Design<f64>>> {
     let mut springs = Geometry::of(body, stiffness).ok()?.springs();
-    let hz = stiffness * body.p_squared().sqrt() / TAU;
+    let hz = stiffness * body.p() / TAU;
     springs.vertical.omega_n_hz *= hz;
     springs.horizontal.omega_n_hz *= hz;
     Some(springs)

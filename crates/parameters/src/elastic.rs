@@ -47,14 +47,14 @@ pub struct OnRecord {
     pub whole: bool,
     /// Length in which a change of a millionth grows to less than a thousandth of the peak and no
     /// corner slides on from a landing, if that is not all of it (s).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub foretold_s: Option<f64>,
     /// When a corner of the reference lands so flat that it slides on, if that is where this ends
     /// (s).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub slides_on_s: Option<f64>,
     /// Omega_n/2 pi of softer springs that hold the accuracy over that length (Hz).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub softer_omega_n_hz: Option<f64>,
     /// NRMSE of the rotations over that length; none where the reference is not lifted, or the
     /// history on springs ends before.
@@ -70,7 +70,7 @@ pub struct OnRecord {
     /// The same on the springs (m).
     pub peak_drift_fem_m: f64,
     /// When the reference lifts first (s).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub lifts_s: Option<f64>,
     /// Landings of the reference.
     pub landings_reference: usize,
@@ -79,7 +79,7 @@ pub struct OnRecord {
     /// Largest energy that the finite elements' account misses, over the largest energy.
     pub energy_residual: f64,
     /// Peaks over motions near the record, where it cannot be foretold to its end.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub near: Option<Ensemble>,
 }
 
@@ -92,32 +92,32 @@ pub struct ElasticParameters {
     /// As given, checked.
     pub structure: ElasticStructure,
     /// Dampers between corners and ground.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub damper: Option<Damper>,
     /// A tendon from the mass to the ground, of a frame one along each column.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub tendon: Option<Tendon>,
     /// The record, if there was one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub record: Option<RecordRow>,
     /// Omega_n/2 pi of the vertical units, of all mass on one k1 (Hz).
     pub omega_n_hz: f64,
     /// Under every corner, from the left.
     pub springs: Vec<CornerRow>,
     /// Springs for a program with fixed time steps, in place of these.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub program: Option<ProgramRow<CornerUnits>>,
     /// What was measured without the record.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub assessment: Option<ElasticAssessment>,
     /// And on it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub on_record: Option<OnRecord>,
     /// Largest displacements of both models on the record.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub peaks: Option<PeakPair>,
     /// Forces to design with.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub design_forces: Option<DesignForces>,
     /// What a reader must know besides.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

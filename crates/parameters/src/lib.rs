@@ -51,16 +51,16 @@ pub struct ConditioningRow {
     pub sensitivity_scale: f64,
     /// How far finite changes move u, relative to it: each by +-0.1 % and by +-1 %, the larger of
     /// both signs.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub moved_by_width: Option<[f64; 2]>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub moved_by_scale: Option<[f64; 2]>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub moved_by_restitution: Option<[f64; 2]>,
     /// Whether one of these changes overturns a body that stands otherwise, or the other way round.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub overturning_changes: Option<bool>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub well_conditioned: Option<bool>,
 }
 
@@ -98,56 +98,56 @@ pub struct Parameters {
     /// The body.
     pub structure: Structure,
     /// Velocity restitution e that the springs are to have; by equation 2 unless given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub restitution: Option<f64>,
     /// The record they were tuned on.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub record: Option<RecordRow>,
     /// What the springs were tuned for, and how accurate they are.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub assessment: Option<Assessment>,
     /// The vertical unit at each foot.
     pub vertical: ChainRow,
     /// The horizontal unit at each foot.
     pub horizontal: ChainRow,
     /// Springs for a program with fixed time steps, in place of those above.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub program: Option<ProgramRow<FootUnits>>,
     /// Dampers between feet and ground; the springs are tuned without them.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub damper: Option<Damper>,
     /// A tendon.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub tendon: Option<Tendon>,
     /// Between feet and ground; without it a pressing foot holds at any force.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub friction: Option<Friction>,
     /// The match of the rigid body on the record.
     #[serde(rename = "match", default, skip_serializing_if = "Option::is_none")]
     pub matched: Option<Match>,
     /// How sensitive Housner's history of that record is.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub conditioning: Option<ConditioningRow>,
     /// The match of the structure with its members, on the same springs.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub match_with_members: Option<Match>,
     /// Landings from large leans to small, without any record.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub landings: Vec<LandingRow>,
     /// Beside the springs above, where another objective chose them.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub paper_procedure: Option<PaperProcedure>,
     /// Table 1 as recovered, beside the paper's own structure.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub table_1: Option<PaperProcedure>,
     /// What the run found, for the file.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
     /// Largest displacements of both models on the record.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub peaks: Option<PeakPair>,
     /// Forces to design with.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub design_forces: Option<DesignForces>,
     /// What a reader must know besides.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

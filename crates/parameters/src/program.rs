@@ -48,17 +48,17 @@ pub struct ProgramExpected {
     /// Median NRMSE by the step, whatever the springs: 13 p dt.
     pub floor: f64,
     /// By the sway before uplift; of a rigid body.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub stance: Option<f64>,
     /// By what a landing foot gives back; of a rigid body.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub rebound: Option<f64>,
     /// Measured in this run on synthetic motions; of an elastic structure on all that its springs
     /// are judged on.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub synthetic: Option<ProgramErrors>,
     /// Measured in this run on earthquake-like motions.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub earthquakes: Option<ProgramErrors>,
 }
 
@@ -119,7 +119,7 @@ pub struct ProgramRow<U> {
     /// What they err.
     pub expected: ProgramExpected,
     /// On the run's record, by an emulation of the program's steps.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub on_record: Option<ProgramOnRecord>,
 }
 
@@ -128,17 +128,17 @@ pub struct ProgramRow<U> {
 pub struct ProgramOnRecord {
     /// Its largest top displacement over that of the reference, less one, up to when the motion can
     /// be predicted; none where one of them falls or ends before that.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub top: Option<f64>,
     /// When it gives up, if it does (s).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub gives_up_s: Option<f64>,
     /// When the structure has fallen over, turned by 1 rad, if it does (s).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub falls_s: Option<f64>,
     /// Whether no small change moves the motion by much, so that this tells of the springs; none:
     /// not looked at.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub predictable: Option<bool>,
 }
 

@@ -25,21 +25,21 @@ pub struct RecordRow {
     /// Peak of the part used, scaled.
     pub pga_g: f64,
     /// Its time (s).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub pga_time_s: Option<f64>,
     /// Factor on the record's acceleration.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub scale: Option<f64>,
     /// Length used (s).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub duration_s: Option<f64>,
     /// Of dt and all samples, unscaled, as 16 hexadecimal digits: [`Record::fingerprint`].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub fnv1a_64: Option<String>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub source: Option<SourceRow>,
     /// The vertical component, if there is one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub vertical: Option<VerticalRow>,
 }
 
@@ -70,7 +70,7 @@ pub enum SourceRow {
         /// Of the file's numbers, found in it or given.
         units: Units,
         /// Which component, where the file has several.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         component: Option<String>,
         /// Whether the mean was taken off.
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]

@@ -61,7 +61,7 @@ pub fn front(job: &Job, progress: &(dyn Fn(usize, usize) + Sync)) -> Vec<Tradeof
             let springs = if hz == chosen {
                 Some(job.springs)
             } else {
-                springs_at_stiffness(&job.body, TAU * hz / job.body.p_squared().sqrt())
+                springs_at_stiffness(&job.body, TAU * hz / job.body.p())
             };
             let found = springs.map(|springs| (hz, error_and_cost(job, &springs)));
             told();

@@ -73,11 +73,11 @@ pub enum Finding {
         /// On springs.
         share_of_overturning: f64,
         /// Of the reference, where it can be told.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         reference_share: Option<f64>,
         over_s: f64,
         /// When its rotation on springs is largest (s), where that is known.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         largest_at_s: Option<f64>,
         /// Whether it would need more friction than there is.
         #[serde(default)]
@@ -109,11 +109,11 @@ pub enum Finding {
     IllConditioned {
         moved_by_width: f64,
         moved_by_scale: f64,
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         moved_by_restitution: Option<f64>,
         /// Up to when no change of 0.1 %, of width, scale or restitution, moves it by a twentieth
         /// of its largest displacement so far (s); none: to its end.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         holds_to_s: Option<f64>,
         springs_judged: bool,
     },
@@ -218,7 +218,7 @@ pub enum Finding {
         force: ForceName,
         change: Option<f64>,
         /// Of a rigid body: what Housner's equation gives (N or N m).
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         housner: Option<f64>,
         /// Of a block, which has no column.
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -265,7 +265,7 @@ pub enum Finding {
         available: f64,
         /// Force that presses the footing then, over its share of the weight, of an elastic
         /// structure.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         press_over_weight: Option<f64>,
     },
     FreeFlight {
@@ -291,7 +291,7 @@ pub enum Finding {
         #[serde(default)]
         without: String,
         /// Up to when that can be foretold (s), if not to its end.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         without_to_s: Option<f64>,
     },
     /// Feet that landed elsewhere than they stood leave the structure bent, held by friction.
@@ -305,7 +305,7 @@ pub enum Finding {
         vertical_g: f64,
         horizontal_g: f64,
         /// When the structure overturns with it (s).
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         overturns_s: Option<f64>,
         changes: Vec<PeakChange>,
         /// Whether forces are measured to be the structure's, as design forces are.
@@ -350,7 +350,7 @@ pub struct FiledFinding {
     /// In one sentence.
     pub message: String,
     /// What to do.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub remedy: Option<String>,
     /// Its name and quantities.
     #[serde(flatten)]

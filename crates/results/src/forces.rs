@@ -20,45 +20,45 @@ pub struct DesignForce {
     /// Whether it changes by less than 5 % with the springs, and with the mesh where there is one.
     pub holds: bool,
     /// The largest change that was measured, as a share; none where nothing could be measured.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub change: Option<f64>,
     /// Largest magnitude with all that the springs and the mesh add, of an elastic structure (N or
     /// N m).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub raw: Option<f64>,
     /// The same force of the structure fixed to the ground (N or N m).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub fixed: Option<f64>,
     /// Of the rigid body by Housner's equation (N or N m).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub rigid: Option<f64>,
     /// Of an A-frame's legs: what they bear at rest, half of the weight on each foot and no thrust
     /// (N or N m).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub at_rest: Option<f64>,
     /// What a column's base, a leg or a block's base bears at that time; of an elastic structure
     /// below the same frequency.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub together: Option<ForcesTogether>,
     /// Where the shear or the tension of an elastic structure's column is so large: height above
     /// its base, along it (m); 0 at the base.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub above_base_m: Option<f64>,
     /// What it is with another mesh and on other springs, of an elastic structure.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub others: Option<OtherForces>,
     /// Length of the record from its start over which it is the largest and holds (s), where it
     /// does not hold over all of it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub over_s: Option<f64>,
     /// What it is over the whole record then.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub whole_record: Option<OtherForces>,
     /// Of a force that is larger after what can be foretold: what it is, and holds, up to then.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub held: Option<HeldForce>,
     /// Whether the motion can be foretold up to `time_s`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub predictable: Option<bool>,
 }
 
@@ -111,38 +111,38 @@ const MOST_BY_CUTOFF: f64 = 1.25;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct DesignForces {
     /// Frequency below which peaks are given (Hz); none where forces are those between landings.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub below_hz: Option<f64>,
     /// Shear of the column, where along it that is largest, of a leg, or at the foot of a rigid
     /// body.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub column_shear_n: Option<DesignForce>,
     /// Moment at the foot of the column, of a rigid body about the middle of its base.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub column_base_moment_nm: Option<DesignForce>,
     /// Moment at the top of the column of an elastic frame, where it meets the beam.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub column_top_moment_nm: Option<DesignForce>,
     /// Axial force of the column, the leg or the rigid body, tension positive.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub axial_n: Option<DesignForce>,
     /// Largest tension of the column of an elastic structure, where there is any.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub axial_tension_n: Option<DesignForce>,
     /// Moment of a leg at the apex of an A-frame.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub apex_moment_nm: Option<DesignForce>,
     /// Shear at the sole, footing included.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub sole_shear_n: Option<DesignForce>,
     /// Vertical force at the sole, footing included, upwards.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub sole_vertical_n: Option<DesignForce>,
     /// Of the tendon that pulls most.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub tendon_n: Option<DesignForce>,
     /// Of the damper with the largest force on the structure, upwards.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub damper_n: Option<DesignForce>,
 }
 

@@ -26,11 +26,11 @@ pub struct Peaks {
     /// Its part by rotation of the base (m).
     pub rocking_m: f64,
     /// Its part by bending (m); none of a rigid body.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub bending_m: Option<f64>,
     /// Its part by feet that land elsewhere than they stood (m); none of a rigid body, whose feet
     /// do not.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub feet_moved_m: Option<f64>,
     /// Of a foot (m).
     pub uplift_m: f64,
@@ -38,13 +38,13 @@ pub struct Peaks {
     pub drift_ratio: f64,
     /// Parts of the top's displacement when it is largest, which are all of it; none of a rigid
     /// body.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub then: Option<PartsOfTop>,
     /// Impacts above the energy threshold: harder than a fall from 0.02 alpha; of an elastic
     /// structure, all landings.
     pub impacts: usize,
     /// When they are.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub times: Option<PeakTimes>,
 }
 
@@ -67,10 +67,10 @@ pub struct PeakTimes {
     /// Its part by rotation of the base.
     pub rocking_s: f64,
     /// Its part by bending; none of a rigid body.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub bending_s: Option<f64>,
     /// Of what feet have moved; none of a rigid body.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub feet_moved_s: Option<f64>,
     /// Of a foot's uplift.
     pub uplift_s: f64,
@@ -83,22 +83,22 @@ pub struct PeakPair {
     /// Without springs.
     pub reference: Peaks,
     /// When its solution ends, if that is before the record does: its peaks count up to then (s).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub reference_ends_s: Option<f64>,
     /// On springs.
     pub springs: Peaks,
     /// When the history on them ends, if that is before the record and the reference do: its peaks
     /// count up to then (s).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub springs_end_s: Option<f64>,
     /// On springs, with dampers, tendon or friction.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub with_members: Option<Peaks>,
     /// When that history ends, if it could not be followed to the record's end (s).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub with_members_end_s: Option<f64>,
     /// Of a motion that can be foretold for a part of the record alone.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub foretold: Option<ForetoldPeaks>,
 }
 
@@ -113,7 +113,7 @@ pub struct ForetoldPeaks {
     /// Of a corner (m).
     pub uplift_m: [f64; 2],
     /// Of the top on springs, with dampers, tendon or friction (m).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub with_members_top_m: Option<f64>,
 }
 

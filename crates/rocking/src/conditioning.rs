@@ -343,7 +343,7 @@ mod tests {
     #[test]
     fn what_comes_later_does_not_decide_up_to_when_a_history_holds() {
         let body = Structure::a_frame(20.0, 2.0, 1e5).unwrap().body::<f64>();
-        let record = crate::synthetic::record(7, 2, body.p_squared().sqrt(), body.alpha());
+        let record = crate::synthetic::record(7, 2, body.p(), body.alpha());
         let options = RockingOptions::default();
         let holds = |accel: &[f64]| changes(&body, record.dt, accel, &options).holds_to_s;
         let mut longer = record.accel.clone();
@@ -362,9 +362,8 @@ mod tests {
                 Conditioning::new(&body, record.dt, &record.accel, &RockingOptions::default());
             (found.sensitivity.worst() < ILL_CONDITIONED, found.well_conditioned())
         };
-        let all: Vec<_> = crate::synthetic::suite(200, 7, body.p_squared().sqrt(), body.alpha())
-            .map(by_both)
-            .collect();
+        let all: Vec<_> =
+            crate::synthetic::suite(200, 7, body.p(), body.alpha()).map(by_both).collect();
         let deceived = all.iter().filter(|(derivative, both)| *derivative && !both).count();
         let good = all.iter().filter(|(_, both)| *both).count();
         assert!(deceived >= 1 && good > 5 * deceived, "{deceived} {good}");

@@ -164,7 +164,12 @@ pub fn solve(
     solve_with_derivatives(body, dt, accel, options)
 }
 
-/// The same in dual numbers: the history and its derivatives by what of body and options has some.
+/// The same from rest, unscaled, with equation 2's restitution and without vertical motion.
+pub fn history(body: &Body<f64>, dt: f64, accel: &[f64]) -> Rocking<f64> {
+    solve(body, dt, accel, &RockingOptions::default())
+}
+
+/// The same as [`solve`] in dual numbers: the history and its derivatives by what of body and options has some.
 pub fn solve_with_derivatives<S: Scalar>(
     body: &Body<S>,
     dt: f64,

@@ -29,10 +29,7 @@ pub fn overturned(body: &Body<f64>, dt: f64, theta: &[f64]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        housner::{RockingOptions, solve},
-        structure::Structure,
-    };
+    use crate::{housner::history, structure::Structure};
 
     /// Two ways to the same time: the sampled history, and Housner's solution that located it.
     #[test]
@@ -40,7 +37,7 @@ mod tests {
         let body = Structure::paper().body::<f64>();
         for duration in [7.0, 20.0] {
             let accel = vec![1.5; (100.0 * duration) as usize];
-            let rocking = solve(&body, 0.01, &accel, &RockingOptions::default());
+            let rocking = history(&body, 0.01, &accel);
             let (found, exact) =
                 (overturned(&body, 0.01, &rocking.theta).unwrap(), rocking.overturned().unwrap());
             assert!((found - exact).abs() < 1e-4, "{found} {exact}");

@@ -185,6 +185,11 @@ impl<S: Scalar> Body<S> {
         m_r2 / (self.inertia + m_r2)
     }
 
+    /// Frequency parameter p (1/s).
+    pub fn p(&self) -> S {
+        self.p_squared().sqrt()
+    }
+
     /// p^2 = m g R / I0 [1/s2].
     pub fn p_squared(&self) -> S {
         self.mass_share() * real::<S>(GRAVITY) / self.radius()

@@ -44,7 +44,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let body = FixedStepSprings::of(&structure.body(), 1e-3, integrator)?.body;
             let motions = WellConditioned::of_seed(&body, seed, count, LOOKED_AT * count);
             for step in [1e-2, 1e-3, 2.5e-4] {
-                let unit = body.p_squared().sqrt() * step;
+                let unit = body.p() * step;
                 let designs = [FixedStepDesign::RECIPE, design(&body, step)];
                 for (which, design) in ["recipe", "own"].into_iter().zip(designs) {
                     let springs = FixedStepSprings::designed(&body, step, integrator, &design)?;
@@ -62,7 +62,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// Quantiles and stops without substeps, then with them; in units of p dt.
 fn row(motions: &WellConditioned, springs: &FixedStepSprings) -> String {
     let (chains, settings) = (springs.chains(), springs.settings());
-    let unit = springs.body.p_squared().sqrt() * springs.step;
+    let unit = springs.body.p() * springs.step;
     let [plain, finer] =
         [settings, settings.with_substeps(1.0 / 16.0)].map(|s| motions.errors(&chains, s));
     format!(

@@ -54,10 +54,10 @@ pub struct Assessment {
     /// What was measured of histories.
     pub measured: Accuracy,
     /// What was measured of peaks; none in older files.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub measured_peaks: Option<PeakAccuracy>,
     /// The landing in the stiff limit, where the springs follow from the geometry.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub landing: Option<LimitRow>,
 }
 

@@ -44,8 +44,7 @@ mod tests {
         {
             let body = structure.body::<f64>();
             let springs = springs_at_once(&body, Asked::new(error, None)).unwrap();
-            let stiffness =
-                std::f64::consts::TAU * springs.vertical.omega_n_hz / body.p_squared().sqrt();
+            let stiffness = std::f64::consts::TAU * springs.vertical.omega_n_hz / body.p();
             let landing = restitution_error(body.alpha(), body.mass_share(), stiffness, LEAST_LEAN);
             assert!(landing * PREDICTABLE <= 0.7 * error * (1.0 + 1e-9), "{landing}");
         }

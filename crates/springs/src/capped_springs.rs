@@ -181,7 +181,7 @@ fn path(
     effort: &Effort,
 ) -> Option<Springs<Design<f64>>> {
     let stiffest = bracket.max_hz * 2f64.powi(HALVINGS);
-    let stiffness = TAU * stiffest / ratio / body.p_squared().sqrt();
+    let stiffness = TAU * stiffest / ratio / body.p();
     let mut found = Geometry::of(body, stiffness).ok()?.springs();
     found.vertical.omega_n_hz = stiffest / ratio;
     found.horizontal.omega_n_hz = stiffest;
@@ -214,8 +214,7 @@ mod tests {
         let restitution = body.restitution();
         let objective =
             LandingsAndUplifts::new(&body, restitution, (bracket, Criterion::Energy), effort);
-        let mut found =
-            Geometry::of(&body, TAU * 160.0 / body.p_squared().sqrt()).unwrap().springs();
+        let mut found = Geometry::of(&body, TAU * 160.0 / body.p()).unwrap().springs();
         (found.vertical.omega_n_hz, found.horizontal.omega_n_hz) = (160.0, 160.0);
         (objective, logarithms(&found))
     }

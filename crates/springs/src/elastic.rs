@@ -304,7 +304,7 @@ pub fn stand(model: &Assembled) -> Option<Standing> {
 /// Speed at which a corner lands that fell from half of what overturns, 2b p alpha sqrt(3)/2 (m/s).
 pub fn landing_speed(structure: &ElasticStructure) -> f64 {
     let body = structure.body();
-    2.0 * body.half_width * body.p_squared().sqrt() * body.alpha() * 0.75_f64.sqrt()
+    2.0 * body.half_width * body.p() * body.alpha() * 0.75_f64.sqrt()
 }
 
 /// Give of a rung.

@@ -67,7 +67,7 @@ const THROUGH_IF_ENDED: f64 = 0.99;
 
 /// The design for a body and a step (s).
 pub fn design(body: &Body<f64>, step: f64) -> FixedStepDesign {
-    let floor = FLOOR * body.p_squared().sqrt() * step;
+    let floor = FLOOR * body.p() * step;
     let k = (floor / (2.0 * REBOUND * body.alpha().powi(3))).sqrt() / REBOUND_OVER_K;
     let corners = CornerDynamics::rigid(body.alpha(), body.mass_share());
     let effective = 1.0 - body.mass_share() * body.alpha().sin().powi(2);
@@ -163,7 +163,7 @@ impl ProgramSprings {
         let own = design(body, program.step);
         let of = |stance| Self::designed(body, program, FixedStepDesign { stance, ..own });
         let first = of(STANCES[0])?;
-        if body.p_squared().sqrt() * program.step > LONGEST || effort.stopped() {
+        if body.p() * program.step > LONGEST || effort.stopped() {
             return Ok(first);
         }
         let motions = ProgramSuites::of(&first.springs.body, suites, asked, effort);
@@ -281,11 +281,7 @@ mod tests {
         for step in [2.5e-4, 1e-3] {
             let k = design(&body, step).vertical.k;
             let rebound = REBOUND * body.alpha().powi(3) * (REBOUND_OVER_K * k).powi(2);
-            assert_relative_eq!(
-                rebound,
-                0.5 * FLOOR * body.p_squared().sqrt() * step,
-                max_relative = 1e-9
-            );
+            assert_relative_eq!(rebound, 0.5 * FLOOR * body.p() * step, max_relative = 1e-9);
         }
         assert_relative_eq!(
             design(&Structure::paper().body(), 1e-3).vertical.k,

@@ -271,7 +271,7 @@ fn evaluate(
     effort: &Effort,
 ) -> Tuned {
     let found = suites.accuracy(&springs.chains(body.mass), (Control::search(), effort));
-    let stiffness = TAU * springs.vertical.omega_n_hz / body.p_squared().sqrt();
+    let stiffness = TAU * springs.vertical.omega_n_hz / body.p();
     let best = Rung { stiffness, springs, errors: found };
     Tuned { rungs: vec![best], best, reached: found.over(asked) <= 1.0 }
 }

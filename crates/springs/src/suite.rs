@@ -76,7 +76,7 @@ impl Suites {
         record: Option<&Record>,
         effort: &Effort,
     ) -> Self {
-        let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
+        let (p, alpha) = (body.p(), body.alpha());
         let well =
             |record| ReferenceMotion::new(body, restitution, record, WantedMotion::WellConditioned);
         let standing = |record| {
@@ -116,7 +116,7 @@ impl Suites {
     /// More synthetic motions, none of which is one of these, to tell springs apart on which these
     /// do not decide; nothing else.
     pub(crate) fn more(&self, restitution: f64, effort: &Effort) -> Self {
-        let (p, alpha) = (self.body.p_squared().sqrt(), self.body.alpha());
+        let (p, alpha) = (self.body.p(), self.body.alpha());
         let well = |record| {
             ReferenceMotion::new(&self.body, restitution, record, WantedMotion::WellConditioned)
         };

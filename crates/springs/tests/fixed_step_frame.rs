@@ -87,8 +87,7 @@ fn horizontal_units_of_any_stiffness_stop_what_lands_by_four_equal_poles() {
             assert!(close(unit.k2, 0.25 * unit.k1), "{unit:?}");
             assert!(close(unit.c, (unit.k1 * m).sqrt()), "{unit:?}");
             // in series the vertical springs are what the stance asks for, whatever K
-            let e = 12.0 * standing.mass / 2.0 * body.p_squared().sqrt()
-                / (body.alpha().powi(2) * STEP);
+            let e = 12.0 * standing.mass / 2.0 * body.p() / (body.alpha().powi(2) * STEP);
             assert!(close(corner.vertical.in_series(), e), "{e}");
         }
     }

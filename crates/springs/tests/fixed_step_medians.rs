@@ -34,7 +34,7 @@ fn medians_are_near_the_floor() {
             assert!(motions.motions.len() >= 6);
             let found =
                 motions.errors(&springs.chains(), springs.settings().with_substeps(1.0 / 16.0));
-            let unit = springs.body.p_squared().sqrt() * step;
+            let unit = springs.body.p() * step;
             errors.extend(found.errors.iter().map(|error| error / unit));
             lost += found.lost();
         }
@@ -80,7 +80,7 @@ fn refining_steps_at_touches_breaks_the_floor() {
             let motions = WellConditioned::of_seed(&springs.body, 77, 9, 72);
             let settings = springs.settings().with_substeps(1.0 / (8.0 * substeps as f64));
             let errors = motions.errors(&springs.chains(), settings);
-            let median = errors.quantile(0.5) / (springs.body.p_squared().sqrt() * 1e-3);
+            let median = errors.quantile(0.5) / (springs.body.p() * 1e-3);
             assert!(median < 4.0, "{integrator}, {structure:?}: {median}, {errors:?}");
             assert_eq!(errors.stopped, 0, "{integrator}, {structure:?}");
             let even: f64 =

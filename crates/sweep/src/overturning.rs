@@ -130,7 +130,7 @@ fn of_cell(plan: &Plan, springs: Option<&SpringsTable>, cell: Cell) -> Vec<Overt
             vertical: None,
             source: Source::Synthetic,
         };
-        let still = housner::solve(&subject.body, dt, &[0.0], &housner::RockingOptions::default());
+        let still = housner::history(&subject.body, dt, &[0.0]);
         let wanted = |&scale: &f64| WantedHistory { subject, springs, scale, rigid: &still };
         let fates = |amplitudes: &[f64]| {
             let found =

@@ -96,7 +96,7 @@ impl HousnerForces {
         (accel, up): (&[f64], &[f64]),
         rocking: &Rocking<f64>,
     ) -> Self {
-        let rest = MOMENT / body.p_squared().sqrt();
+        let rest = MOMENT / body.p();
         let velocity = |i: usize| {
             let (theta, rate) = (rocking.theta[i], rocking.rate[i]);
             let side = if theta == 0.0 { rate.signum() } else { theta.signum() };

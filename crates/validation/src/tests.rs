@@ -47,8 +47,7 @@ fn a_row_says_what_the_whole_histories_say() {
     let row = judge.judge(std::slice::from_ref(&record)).remove(0);
 
     let short = record.truncated(10.0);
-    let rocking =
-        housner::solve(&judge.body, short.dt, &short.accel, &housner::RockingOptions::default());
+    let rocking = housner::history(&judge.body, short.dt, &short.accel);
     let motion = rocking.motion(&judge.body);
     let history =
         fem::Analysis::new(judge.body, springs(&frame()), short.dt, &short.accel).simulate();
@@ -139,7 +138,7 @@ fn a_history_that_meets_its_bound_on_work_is_listed_as_failed() {
 #[test]
 fn every_record_is_asked_for_once_and_rows_keep_their_order() {
     let judge = judge(&Structure::block(2.0, 0.5, 1000.0).unwrap());
-    let (p, alpha) = (judge.body.p_squared().sqrt(), judge.body.alpha());
+    let (p, alpha) = (judge.body.p(), judge.body.alpha());
     let asked: Vec<AtomicUsize> = (0..6).map(|_| AtomicUsize::new(0)).collect();
     let last = AtomicUsize::new(0);
     let record = |i: usize| {
@@ -173,16 +172,14 @@ fn a_row_of_even_steps_says_what_the_program_s_history_says() {
     let model = FixedStepBody::new(&springs.body, &springs.chains());
     let settings = springs.settings();
     let judge = judge_model(&structure, JudgedModel::Even { model, settings });
-    let p = body.p_squared().sqrt();
+    let p = body.p();
     let records: Vec<Record> = (0..30).map(|i| synthetic::record(1, i, p, body.alpha())).collect();
     let rows = judge.judge(&records);
     let rocked = rows.iter().zip(&records).filter(|(row, _)| row.comparable() && !row.failed());
     assert!(rocked.clone().count() > 3, "{rows:?}");
     for (row, record) in rocked {
         let history = FixedStepAnalysis::new(&model, settings, record.dt, &record.accel).history();
-        let motion =
-            housner::solve(&body, record.dt, &record.accel, &housner::RockingOptions::default())
-                .motion(&body);
+        let motion = housner::history(&body, record.dt, &record.accel).motion(&body);
         let displacement =
             (largest_magnitude(&history.motion.u) / largest_magnitude(&motion.u) - 1.0).abs();
         let close = |a: Option<f64>, b: f64| (a.unwrap() - b).abs() <= 1e-9 * b.abs().max(1e-3);
@@ -231,11 +228,10 @@ fn errors_of_peaks_are_those_of_an_independent_calculation() {
         let structure = Structure::block(2.0, width, 1e3).unwrap();
         let judge = judge_with(&structure, control);
         let body = &judge.body;
-        let p = body.p_squared().sqrt();
+        let p = body.p();
         let record = synthetic::record(1, 4, p, body.alpha());
         let row = judge.judge(std::slice::from_ref(&record)).remove(0);
-        let rocking =
-            housner::solve(body, record.dt, &record.accel, &housner::RockingOptions::default());
+        let rocking = housner::history(body, record.dt, &record.accel);
         let (mut history, mut demands) =
             fem::Analysis::new(*body, springs(&structure), record.dt, &record.accel)
                 .simulate_with(&rocking::members::Members::default());
@@ -283,7 +279,7 @@ fn long_steps_know_forces_as_well_as_short_ones() {
         [frame(), Structure::a_frame(12.0, 2.2, 1e5).unwrap(), block(2.6, 0.7), block(0.3, 0.1)]
     {
         let body = structure.body::<f64>();
-        let p = body.p_squared().sqrt();
+        let p = body.p();
         let hz = 4e4 * p / std::f64::consts::TAU;
         let design = |m2: f64, k: f64, c: f64| Design::from_kc(m2, k, c, hz);
         let springs =

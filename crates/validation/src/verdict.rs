@@ -35,10 +35,10 @@ pub struct Answer {
     /// What it did.
     pub fate: Fate,
     /// When |theta| last grew past alpha (s).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub overturned_s: Option<f64>,
     /// When Housner's pivot let go of the ground, which ends his solution (s).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub left_ground_s: Option<f64>,
     /// Largest |theta|/alpha, of a body that overturned or left the ground up to then; zero if it
     /// never lifted.
@@ -51,17 +51,17 @@ pub struct Verdict {
     /// Housner's body.
     pub housner: Answer,
     /// His answer without the record's vertical component, if it has one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub housner_without_vertical: Option<Answer>,
     /// The finite element body on its springs.
     pub finite_elements: Answer,
     /// Whether Housner's history is well conditioned: whether the two can be compared one to one.
     pub well_conditioned: bool,
     /// NRMSE of u and v over the length compared; none where there is nothing to compare.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub nrmse_horizontal: Option<f64>,
     /// Of v.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub nrmse_vertical: Option<f64>,
     /// Length compared: up to the first overturning (s).
     pub compared_s: f64,

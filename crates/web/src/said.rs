@@ -41,7 +41,7 @@ impl Working {
             radius_m: body.radius(),
             alpha: body.alpha(),
             mass_share: body.mass_share(),
-            p: body.p_squared().sqrt(),
+            p: body.p(),
             restitution: body.restitution(),
             uplift_g: body.half_width / body.height,
             frequency_hz: None,

@@ -59,7 +59,7 @@ impl ComponentRow {
         let (record, m) = (&component.record, component.record.measures());
         let time = |peak: Peak| component.start + peak.time.unwrap_or(0.0);
         let structure = body.map(|body| {
-            let (p, g_tan) = (body.p_squared().sqrt(), GRAVITY * body.alpha().tan());
+            let (p, g_tan) = (body.p(), GRAVITY * body.alpha().tan());
             OnStructure {
                 pga_over_g_tan_alpha: m.pga.value.abs() / g_tan,
                 p_pgv_over_g_tan_alpha: p * m.pgv.value.abs() / g_tan,

@@ -78,7 +78,7 @@ pub fn between_landings(
     landings: &[Landing],
     samples: usize,
 ) -> impl Iterator<Item = usize> {
-    let rest = MOMENT / body.p_squared().sqrt();
+    let rest = MOMENT / body.p();
     (0..samples).filter(move |&i| {
         let time = i as f64 * dt;
         let first = landings.partition_point(|l| l.time < time - dt - rest);

@@ -152,7 +152,7 @@ impl Observer for Recorder {
             self.initial_z = q[Z];
             self.events.pressing = [0, 1].map(|i| view.presses(i));
             let body = &view.model.body;
-            self.events.moment = MOMENT / body.p_squared().sqrt();
+            self.events.moment = MOMENT / body.p();
             self.events.slight = body.fall(SLIGHT * body.alpha());
         }
         self.end = view.time;

@@ -48,7 +48,7 @@ fn the_account_closes_for_blocks_and_frames_on_pulses_and_noise() {
     for structure in structures {
         let body = structure.body::<f64>();
         let stiff = 160.0 * (63.0 / body.radius()).sqrt();
-        for record in synthetic::suite(12, 7, body.p_squared().sqrt(), body.alpha()) {
+        for record in synthetic::suite(12, 7, body.p(), body.alpha()) {
             for springs in [plastic(stiff, body.mass), lively(stiff, body.mass)] {
                 let history = settled(&structure, springs, &record, Control::default());
                 assert_closes(&history, &record.name);

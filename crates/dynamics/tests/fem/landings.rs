@@ -2,10 +2,7 @@
 
 use dynamics::compare::Match;
 use dynamics::fem::Control;
-use rocking::{
-    housner::{self, RockingOptions},
-    structure::Structure,
-};
+use rocking::{housner, structure::Structure};
 
 use crate::common::{chains, el_centro, free, lively, paper, plastic, settled, table_1};
 
@@ -62,7 +59,7 @@ fn every_firm_landing_of_a_block_shaken_hard_loses_what_housner_s_does() {
         history.landings.iter().filter(|l| l.impact && (4.67..4.70).contains(&l.time)).collect();
     assert_eq!(short.iter().map(|l| l.foot).collect::<Vec<_>>(), [0, 1], "{short:?}");
     let body = structure.body::<f64>();
-    let rocking = housner::solve(&body, record.dt, &record.accel, &RockingOptions::default());
+    let rocking = housner::history(&body, record.dt, &record.accel);
     let housner = (&rocking.motion(&body), &rocking.impacts[..]);
     let found = Match::new(&body, record.dt, housner, &history, body.restitution());
     // the least lean is a share of alpha; gentler landings lose more to the elastic stance

@@ -65,7 +65,7 @@ fn a_history_is_the_same_to_the_last_bit_in_any_company_and_on_any_number_of_thr
     let records: Vec<_> = (0..36)
         .map(|i| {
             let body = &models[i % models.len()].0;
-            synthetic::record(3, i, body.p_squared().sqrt(), body.alpha())
+            synthetic::record(3, i, body.p(), body.alpha())
         })
         .collect();
     let up: Vec<f64> = (0..400).map(|i| 1.5 * (0.11 * f64::from(i)).sin()).collect();

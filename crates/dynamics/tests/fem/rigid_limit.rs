@@ -1,10 +1,7 @@
 //! Springs that stiffen give Housner's history.
 
 use dynamics::fem::Control;
-use rocking::{
-    housner::{self, RockingOptions},
-    motion::nrmse,
-};
+use rocking::{housner, motion::nrmse};
 
 use crate::common::{el_centro, paper, plastic, settled};
 
@@ -12,7 +9,7 @@ use crate::common::{el_centro, paper, plastic, settled};
 fn stiff_springs_give_housner_s_history_of_el_centro() {
     let (structure, record) = (paper(1e-5), el_centro());
     let body = structure.body::<f64>();
-    let rigid = housner::solve(&body, record.dt, &record.accel, &RockingOptions::default());
+    let rigid = housner::history(&body, record.dt, &record.accel);
     let motion = rigid.motion(&body);
     let mut errors = Vec::new();
     for hz in [80.0, 320.0, 1280.0] {

@@ -6,7 +6,7 @@ use dynamics::{
     spring::{Chain, Design, Springs},
 };
 use rocking::{
-    housner::{self, RockingOptions},
+    housner,
     motion::nrmse,
     structure::{Kind, Structure},
 };
@@ -45,12 +45,12 @@ fn landing(structure: &Structure, (mu, k, c): Ratios, rho: f64, hz: f64) -> Spri
 /// nor overturns.
 fn suite(structure: &Structure, springs: Springs<Chain>, n: usize) -> Vec<(History, Option<f64>)> {
     let body = structure.body::<f64>();
-    let records = synthetic::suite(n, 1, body.p_squared().sqrt(), body.alpha());
+    let records = synthetic::suite(n, 1, body.p(), body.alpha());
     let run = |record: strong_motion::Record| {
         let control = Control { most_steps: 500_000, ..Control::default() };
         let (dt, accel) = (record.dt, &record.accel[..]);
         let history = Analysis { control, ..Analysis::new(body, springs, dt, accel) }.simulate();
-        let rocking = housner::solve(&body, dt, accel, &RockingOptions::default());
+        let rocking = housner::history(&body, dt, accel);
         let rocked = rocking.outcome == housner::RockingOutcome::Rocked
             && history.outcome == HistoryOutcome::Completed;
         let error = rocked.then(|| nrmse(&history.motion.u, &rocking.motion(&body).u));
@@ -121,9 +121,9 @@ fn a_stocky_frame_follows_housner_until_his_pivot_would_have_to_pull() {
     let structure = frame(0.6, 0.0);
     let (body, springs) = (structure.body::<f64>(), landing(&structure, DEAD, 20.0, 1e4));
     let (mut before, mut whole) = (Vec::new(), Vec::new());
-    for record in synthetic::suite(60, 1, body.p_squared().sqrt(), body.alpha()) {
+    for record in synthetic::suite(60, 1, body.p(), body.alpha()) {
         let (dt, accel) = (record.dt, &record.accel[..]);
-        let rocking = housner::solve(&body, dt, accel, &RockingOptions::default());
+        let rocking = housner::history(&body, dt, accel);
         let Some(time) = regime::pivot_pulls(&body, dt, accel, &rocking) else { continue };
         let history = Analysis::new(body, springs, dt, accel).simulate();
         let (u, reference) = (&history.motion.u, &rocking.motion(&body).u);

@@ -24,7 +24,7 @@ const STIFF: f64 = 1e5;
 fn springs(body: &Body<f64>) -> Springs<Chain> {
     let point = body.mass * body.radius().powi(2);
     let landing = 1.0 - point / (point + body.inertia) * body.alpha().sin().powi(2);
-    let hz = STIFF * body.p_squared().sqrt() / std::f64::consts::TAU;
+    let hz = STIFF * body.p() / std::f64::consts::TAU;
     let vertical = Design::from_kc(0.665 * landing, 0.02, 0.55 * landing.sqrt(), hz);
     Springs { vertical, horizontal: Design::from_kc(0.3, 1.0, 2.0, 20.0 * hz) }.chains(body.mass)
 }
@@ -41,7 +41,7 @@ fn simulate(
 
 /// A horizontal motion, and another one with a peak of `peak` (g) as the vertical.
 fn motions(body: &Body<f64>, n: usize, peak: f64) -> Vec<(f64, Vec<f64>, Vec<f64>)> {
-    let suite = |seed: u64| synthetic::suite(n, seed, body.p_squared().sqrt(), body.alpha());
+    let suite = |seed: u64| synthetic::suite(n, seed, body.p(), body.alpha());
     suite(3)
         .zip(suite(4))
         .map(|(horizontal, vertical)| {

@@ -13,7 +13,7 @@ pub struct ForcesTogether {
     /// Moment at the column's base (N m); a leg's hinge has none.
     pub column_base_moment_nm: f64,
     /// Moment of a leg at the apex (N m).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub apex_moment_nm: Option<f64>,
 }
 
@@ -43,7 +43,7 @@ pub struct OtherForces {
     /// What was found on the springs of the run, whether it holds or not.
     pub found: f64,
     /// With twice as many elements; absent from columns without mass, which have one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub doubled_elements: Option<f64>,
     /// On springs of Omega_n/4.
     pub softer: Option<f64>,
@@ -51,7 +51,7 @@ pub struct OtherForces {
     pub stiffer: Option<f64>,
     /// On the springs of the run, below twice the frequency; absent where there is none. It decides
     /// nothing: what it has more is of faster waves.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub doubled_cutoff: Option<f64>,
 }
 

@@ -24,7 +24,7 @@ pub struct AFrameSpec {
     /// Mass at the apex (kg).
     pub mass_kg: f64,
     /// Rotational inertia of that mass; 1e-5 m R^2 unless given (kg m2).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub rotational_inertia_kgm2: Option<f64>,
     /// Axial stiffness times length of a leg, EA (N).
     pub ea_n: f64,

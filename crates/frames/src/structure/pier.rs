@@ -32,32 +32,32 @@ pub struct PierSpec {
     pub footing_height_m: f64,
     /// Rotational inertia of the footing about its centre of mass; of a solid block unless given
     /// (kg m2).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub footing_inertia_kgm2: Option<f64>,
     /// Axial stiffness times length, EA; that of a solid square concrete column (E = 30 GPa) of the
     /// same EI unless given (N).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub ea_n: Option<f64>,
     /// Shear stiffness GA_s; of a column with a mass of its own that of a solid concrete section of
     /// this EA unless given, of others infinite (N).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub ga_n: Option<f64>,
     /// Bending stiffness EI (N m2).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub ei_nm2: Option<f64>,
     /// Instead of EI: frequency of the pier fixed to the ground, across, under its weight (Hz).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub frequency_hz: Option<f64>,
     /// Ratio to critical damping of the pier fixed to the ground, across.
     pub damping_ratio: f64,
     /// The same along the column; as across unless given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub axial_damping_ratio: Option<f64>,
     /// Mass of the column, spread over it (kg).
     #[serde(default)]
     pub column_mass_kg: f64,
     /// Beam elements to the column: one without a mass of its own, four with it unless given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub elements: Option<usize>,
 }
 

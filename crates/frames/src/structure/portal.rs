@@ -32,7 +32,7 @@ pub struct PortalSpec {
     pub column_ei_nm2: f64,
     /// Shear stiffness GA_s of a column; of columns with a mass of their own that of a solid
     /// concrete section of this EA unless given, of others infinite (N).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub column_ga_n: Option<f64>,
     /// Axial stiffness times length of the beam (N).
     pub beam_ea_n: f64,
@@ -44,7 +44,7 @@ pub struct PortalSpec {
     #[serde(default)]
     pub column_mass_kg: f64,
     /// Beam elements to each column: one without a mass of its own, four with it unless given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub elements: Option<usize>,
 }
 

@@ -83,7 +83,7 @@ impl ElasticParts<'_> {
         };
         let landings = reference.history.landings().map(|event| event.time);
         let touches = fem.contacts.iter().filter(|contact| contact.touches).map(|c| c.time);
-        let rest = SAME_IMPACT / self.assembled.structure.body().p_squared().sqrt();
+        let rest = SAME_IMPACT / self.assembled.structure.body().p();
         PeakPair {
             reference: of(
                 &|i| reference.history.q[i].as_slice().to_vec(),

@@ -165,10 +165,7 @@ fn taken(parameters: &ElasticParameters) -> Taken {
         );
     }
     fact("slenderness alpha of the rigid body", format!("{} rad", significant(body.alpha(), 4)));
-    fact(
-        "frequency p of the rigid body",
-        format!("{} 1/s", significant(body.p_squared().sqrt(), 4)),
-    );
+    fact("frequency p of the rigid body", format!("{} 1/s", significant(body.p(), 4)));
     fact("restitution e of the rigid body, equation 2", significant(body.restitution(), 4));
     fact(
         "frequency fixed to the ground",

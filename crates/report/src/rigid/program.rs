@@ -25,7 +25,7 @@ pub(super) fn findings(case: &Case, parameters: &Parameters) -> Vec<Finding> {
     };
     let FixedStepProgram { step: step_s, .. } =
         case.program.unwrap_or_else(FixedStepProgram::usual);
-    if step_s > LONGEST / body.p_squared().sqrt() {
+    if step_s > LONGEST / body.p() {
         let longest_s = round_step(step_for(&body, USELESS));
         return vec![Finding::ProgramStepTooLong { step_s, longest_s, asked }];
     }

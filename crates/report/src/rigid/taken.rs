@@ -26,7 +26,7 @@ pub(super) fn taken(structure: &Structure, restitution: f64, members: &Members) 
             format!("{} kg m2", significant(structure.rotational_inertia_kgm2, 4)),
         ),
         ("slenderness alpha", format!("{} rad", significant(body.alpha(), 4))),
-        ("frequency p", format!("{} 1/s", significant(body.p_squared().sqrt(), 4))),
+        ("frequency p", format!("{} 1/s", significant(body.p(), 4))),
         ("restitution e", significant(restitution, 4)),
         lifts(structure, members),
     ];

@@ -1,5 +1,5 @@
 use super::*;
-use crate::housner::{RockingOptions, RockingOutcome, solve};
+use crate::housner::{RockingOptions, RockingOutcome, history, solve};
 use crate::structure::Structure;
 use strong_motion::Record;
 
@@ -69,7 +69,7 @@ fn forces_are_those_of(
 fn at_rest_the_friction_needed_is_the_ground_acceleration_over_g() {
     let body = Structure::paper().body::<f64>();
     let accel = [0.0, 0.3, -0.9, 0.5];
-    let rocking = solve(&body, 0.01, &accel, &RockingOptions::default());
+    let rocking = history(&body, 0.01, &accel);
     assert_eq!(rocking.outcome, RockingOutcome::NeverMoved);
     let regime = check(&body, 0.01, (&accel, &[]), 1.0, &rocking, 0.5);
     assert!((regime.friction_needed.value - 0.9 / GRAVITY).abs() < 1e-16);
@@ -84,7 +84,7 @@ fn a_body_lifts_where_the_friction_needed_is_its_slope() {
     let body = Structure::paper().body::<f64>();
     let slope = 0.1;
     let accel: Vec<f64> = (0..40).map(|i| 0.04 * GRAVITY * f64::from(i.min(3))).collect();
-    let rocking = solve(&body, 0.01, &accel, &RockingOptions::default());
+    let rocking = history(&body, 0.01, &accel);
     let lifts = rocking.uplifts[0].time;
     assert!((lifts - 0.025).abs() < 1e-9, "{lifts}");
     let regime = check(&body, 0.01, (&accel, &[]), 1.0, &rocking, 0.5);
@@ -106,7 +106,7 @@ fn an_a_frames_contact_force_points_along_the_leg() {
 fn el_centro_on_the_papers_frame_rocks_without_warnings() {
     let body = Structure::paper().body::<f64>();
     let record = Record::el_centro();
-    let rocking = solve(&body, record.dt, &record.accel, &RockingOptions::default());
+    let rocking = history(&body, record.dt, &record.accel);
     let regime = check(&body, record.dt, (&record.accel, &[]), 1.0, &rocking, 0.5);
     // the A-frame's force stays near its leg: tan(alpha) = 0.1, and at uplift exactly that
     assert!((0.0999..0.11).contains(&regime.friction_needed.value), "{regime:?}");
@@ -158,7 +158,7 @@ fn landing_friction_is_the_ratio_of_housners_impulses() {
     for body in [Structure::paper().body::<f64>(), block(2.0, 0.8)] {
         let e = body.restitution();
         let expected = (1.0 - e) * body.height / ((1.0 + e) * body.half_width);
-        let rocking = solve(&body, 0.01, &[0.0], &RockingOptions::default());
+        let rocking = history(&body, 0.01, &[0.0]);
         let regime = check(&body, 0.01, (&[0.0], &[]), 1.0, &rocking, 0.5);
         assert!((regime.landing_friction / expected - 1.0).abs() < 1e-14);
     }
@@ -170,7 +170,7 @@ fn what_a_falling_body_asks_of_the_ground_does_not_count() {
     let body = block(2.0, 0.5);
     let limit = GRAVITY * body.half_width / body.height;
     let accel = vec![2.0 * limit; 1000];
-    let rocking = solve(&body, 0.01, &accel, &RockingOptions::default());
+    let rocking = history(&body, 0.01, &accel);
     let time = rocking.overturned().unwrap();
     let regime = check(&body, 0.01, (&accel, &[]), 1.0, &rocking, 0.5);
     assert!(regime.friction_needed.time <= time, "{regime:?}");

@@ -1,6 +1,6 @@
 //! The same case mirrored, shifted in time, in other units, scaled by similarity: the same answer.
 
-use rocking::housner::{RockingOptions, solve};
+use rocking::housner::{RockingOptions, history, solve};
 use rocking::structure::Structure;
 use strong_motion::{ReadOptions, Record};
 
@@ -9,8 +9,8 @@ fn a_mirrored_record_gives_the_mirrored_history_bit_for_bit() {
     let body = Structure::block(3.0, 0.7, 1.0).unwrap().body::<f64>();
     let accel = Record::el_centro().accel;
     let mirrored: Vec<f64> = accel.iter().map(|a| -a).collect();
-    let here = solve(&body, 0.01, &accel, &RockingOptions::default());
-    let there = solve(&body, 0.01, &mirrored, &RockingOptions::default());
+    let here = history(&body, 0.01, &accel);
+    let there = history(&body, 0.01, &mirrored);
     assert!(here.impacts.len() > 10, "{} {:?}", here.impacts.len(), here.outcome);
     assert_eq!(here.impacts.len(), there.impacts.len());
     assert!(here.theta.iter().zip(&there.theta).all(|(a, b)| *a == -*b));
@@ -22,8 +22,8 @@ fn quiet_samples_before_a_record_only_shift_the_history() {
     let accel = Record::el_centro().accel;
     let mut shifted = vec![0.0; 137];
     shifted.extend_from_slice(&accel);
-    let here = solve(&body, 0.01, &accel, &RockingOptions::default());
-    let there = solve(&body, 0.01, &shifted, &RockingOptions::default());
+    let here = history(&body, 0.01, &accel);
+    let there = history(&body, 0.01, &shifted);
     assert_eq!(here.theta[..], there.theta[137..]);
     assert!(there.theta[..137].iter().all(|theta| *theta == 0.0));
 }
@@ -33,18 +33,8 @@ fn quiet_samples_before_a_record_only_shift_the_history() {
 #[test]
 fn a_similar_body_on_a_similar_record_has_the_same_angles() {
     let accel = Record::el_centro().accel;
-    let small = solve(
-        &Structure::block(3.0, 0.7, 1.0).unwrap().body::<f64>(),
-        0.01,
-        &accel,
-        &RockingOptions::default(),
-    );
-    let large = solve(
-        &Structure::block(12.0, 2.8, 64.0).unwrap().body::<f64>(),
-        0.02,
-        &accel,
-        &RockingOptions::default(),
-    );
+    let small = history(&Structure::block(3.0, 0.7, 1.0).unwrap().body::<f64>(), 0.01, &accel);
+    let large = history(&Structure::block(12.0, 2.8, 64.0).unwrap().body::<f64>(), 0.02, &accel);
     assert_eq!(small.impacts.len(), large.impacts.len());
     for (a, b) in small.theta.iter().zip(&large.theta) {
         assert!((a - b).abs() < 1e-13);
@@ -55,12 +45,12 @@ fn a_similar_body_on_a_similar_record_has_the_same_angles() {
 fn a_record_file_in_g_or_centimetres_gives_the_same_history() {
     let body = Structure::block(3.0, 0.7, 1.0).unwrap().body::<f64>();
     let record = Record::el_centro();
-    let one = solve(&body, record.dt, &record.accel, &RockingOptions::default());
+    let one = history(&body, record.dt, &record.accel);
     for (header, unit) in [("g", 9.81), ("m/s2", 1.0), ("cm/s2", 0.01)] {
         let numbers: Vec<String> = record.accel.iter().map(|a| format!("{:e}", a / unit)).collect();
         let text = format!("# acceleration ({header}), dt = 0.01 s\n{}\n", numbers.join("\n"));
         let read = Record::parse("a.txt", text.as_bytes(), &ReadOptions::default()).unwrap();
-        let other = solve(&body, read.dt, &read.accel, &RockingOptions::default());
+        let other = history(&body, read.dt, &read.accel);
         assert_eq!(one.impacts.len(), other.impacts.len());
         assert!(one.theta.iter().zip(&other.theta).all(|(a, b)| (a - b).abs() < 1e-12));
     }
@@ -70,14 +60,8 @@ fn a_record_file_in_g_or_centimetres_gives_the_same_history() {
 #[test]
 fn a_mass_in_tonnes_gives_the_same_history() {
     let accel = Record::el_centro().accel;
-    let run = |mass| {
-        solve(
-            &Structure::block(3.0, 0.7, mass).unwrap().body::<f64>(),
-            0.01,
-            &accel,
-            &RockingOptions::default(),
-        )
-    };
+    let run =
+        |mass| history(&Structure::block(3.0, 0.7, mass).unwrap().body::<f64>(), 0.01, &accel);
     let (kilograms, tonnes) = (run(2500.0), run(2.5));
     assert_eq!(kilograms.impacts.len(), tonnes.impacts.len());
     assert!(kilograms.theta.iter().zip(&tonnes.theta).all(|(a, b)| (a - b).abs() < 1e-12));

@@ -46,7 +46,7 @@ pub struct ElasticErrors {
     /// Touches to a landing of the reference, over all.
     pub touches: f64,
     /// Of peaks; none in older files.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub peaks: Option<ElasticPeaks>,
 }
 
@@ -153,7 +153,7 @@ impl ElasticSuite {
     /// of it once it is stopped from outside.
     pub fn new(model: Assembled, record: Option<(&Record, &Reference)>, effort: &Effort) -> Self {
         let body = model.structure.body();
-        let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
+        let (p, alpha) = (body.p(), body.alpha());
         let times = (RELEASE / p / SAMPLES, RELEASE / p);
         let released = |lean: f64| ElasticTrial::released(&model, lean * alpha, times, effort);
         let releases = parallel::map(&LEANS, |lean| released(*lean));

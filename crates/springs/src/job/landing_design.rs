@@ -41,7 +41,7 @@ impl LandingDesign<'_> {
         if landing_simulation::differs_from_housner(&self.body, self.case.restitution) {
             return self.bouncing(progress);
         }
-        let p = self.body.p_squared().sqrt();
+        let p = self.body.p();
         let springs = |stiffness: f64| springs_at_stiffness(&self.body, stiffness);
         let said = |rungs: usize, over: f64| {
             progress(rungs, 0, over * stiffness_search::MARGIN * asked.error)

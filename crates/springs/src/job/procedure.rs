@@ -103,7 +103,7 @@ impl<'a> Procedure<'a> {
                 Some(found),
             ));
         }
-        let p = body.p_squared().sqrt();
+        let p = body.p();
         let begin = stiffness_search::begin(asked) * p / TAU;
         let found = self.at(begin, progress).ok_or(JobError::NoCandidate)?;
         let springs = |stiffness: f64| {

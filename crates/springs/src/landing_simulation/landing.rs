@@ -63,7 +63,7 @@ pub(super) fn next_peak(phi: f64, restitution: f64) -> f64 {
 impl Release {
     /// From phi alpha of a body that lands with `restitution`.
     pub(crate) fn new(body: &Body<f64>, restitution: f64, phi: f64) -> Self {
-        let p = body.p_squared().sqrt();
+        let p = body.p();
         let (fall, rise) = (quarter(phi, p), quarter(next_peak(phi, restitution), p));
         let time = 1.12 * (fall + rise);
         let dt = time / 30.0;

@@ -86,7 +86,7 @@ struct Swing {
 
 impl Swing {
     fn new(body: &Body<f64>, restitution: f64, lean: f64) -> Self {
-        let p = body.p_squared().sqrt();
+        let p = body.p();
         let next = next_peak(lean, restitution);
         let time = quarter(lean, p) + 1.9 * quarter(next, p);
         let dt = (time / 400.0).min(0.01);

@@ -38,7 +38,7 @@ pub(super) struct UpliftRamp {
 
 /// The uplifts of a structure.
 pub(super) fn all(body: &Body<f64>) -> Vec<UpliftRamp> {
-    let p = body.p_squared().sqrt();
+    let p = body.p();
     RAMPS_S
         .iter()
         .copied()
@@ -61,7 +61,7 @@ impl UpliftRamp {
             lift * (SWING.0 + (SWING.1 - SWING.0) * share)
         }));
         accel.extend(std::iter::repeat_n(lift * SWING.1, after));
-        let rocking = housner::solve(body, dt, &accel, &housner::RockingOptions::default());
+        let rocking = housner::history(body, dt, &accel);
         let last = ((0.04 / dt).ceil() as usize).clamp(2, after);
         let end = accel.len() - 1;
         let u = |i: usize| rocking.theta.get(i).map_or(f64::NAN, |&theta| body.u(theta));
@@ -91,7 +91,7 @@ impl UpliftRamp {
         if finish.outcome != HistoryOutcome::Completed {
             return f64::INFINITY;
         }
-        let p = body.p_squared().sqrt();
+        let p = body.p();
         let (from, to) = (from - self.housner.0, to - self.housner.1);
         let ahead = (to - from) / (self.last as f64 * self.dt) + p * to;
         ahead / (p * body.radius() * body.alpha() * 0.25)

@@ -30,13 +30,13 @@ pub struct Accuracy {
     #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "null_as_lost")]
     pub record: Option<f64>,
     /// Median over the well-conditioned of the synthetic motions made for the structure.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub synthetic_median: Option<Statistic>,
     /// 90 % of these are below it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub synthetic_p90: Option<Statistic>,
     /// Geometric mean over the earthquake-like motions on which Housner's sensitivity is below 150.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub earthquakes_mean: Option<Statistic>,
     /// How many of these were scaled down to what the structure stands.
     #[serde(default, skip_serializing_if = "is_zero")]
@@ -109,13 +109,13 @@ pub struct PeakAccuracy {
     /// Of the one with the largest error, motion by motion.
     pub largest: Accuracy,
     /// Of each, on the record.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub record: Option<PeakErrors>,
     /// Of each, median over the synthetic motions.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub synthetic_median: Option<PeakErrors>,
     /// Of each, geometric mean over the earthquake-like motions.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub earthquakes_mean: Option<PeakErrors>,
 }
 

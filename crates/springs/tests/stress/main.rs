@@ -94,7 +94,7 @@ fn finite_element_histories_are_finite_close_their_account_and_say_how_they_ende
         })?;
         let steps = history.work.steps + history.work.rejected;
         require(steps <= MOST_STEPS, || format!("{steps} steps"))?;
-        let rocking = housner::solve(&body, dt, &accel, &RockingOptions::default());
+        let rocking = housner::history(&body, dt, &accel);
         let matched = Match::new(
             &body,
             dt,

@@ -12,7 +12,7 @@ fn spectrum(
     q: f64,
     levels: &[f64],
 ) -> Vec<OverturningInterval> {
-    let p = body.p_squared().sqrt();
+    let p = body.p();
     let uplift = rocking::scalar::GRAVITY * body.half_width / body.height;
     let (dt, accel) = shape.sampled(q * p, uplift, p);
     let pulse = LonePulse { body, e, dt, accel: &accel };
@@ -94,7 +94,7 @@ fn the_limit_of_slender_bodies_is_the_closed_form() {
 #[test]
 fn the_fate_is_what_a_long_silence_shows() {
     let body = body(0.25);
-    let p = body.p_squared().sqrt();
+    let p = body.p();
     let uplift = rocking::scalar::GRAVITY * 0.25_f64.tan();
     for shape in [PulseShape::HalfSine, PulseShape::Sine, PulseShape::Ricker] {
         let (dt, accel) = shape.sampled(2.0 * p, uplift, p);

@@ -42,7 +42,7 @@ impl Subject {
             structure::Kind::Block => "block",
         };
         let name = format!("{kind} R {} m, alpha {}", digits(body.radius()), digits(body.alpha()));
-        let (alpha, p) = (body.alpha(), body.p_squared().sqrt());
+        let (alpha, p) = (body.alpha(), body.p());
         Self { name, structure, body, restitution, alpha, p, doubts: Vec::new() }
     }
 

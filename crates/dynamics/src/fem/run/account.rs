@@ -49,7 +49,7 @@ impl Scales {
         let body = &model.body;
         let radius = body.radius();
         let share = model.rotation / (body.mass * radius * radius);
-        let moment = body.p_squared().sqrt().recip();
+        let moment = body.p().recip();
         Self { radius, share: share.min(1.0), moment, alpha: body.alpha() }
     }
 

@@ -1,8 +1,5 @@
 use super::*;
-use rocking::{
-    housner::{RockingOptions, solve},
-    structure::Structure,
-};
+use rocking::{housner::history, structure::Structure};
 use strong_motion::Record;
 
 /// Soft and stiff springs. Not such as chatter (K = 9): no two sizes of steps agree on those.
@@ -18,7 +15,7 @@ fn candidates() -> Vec<Springs<Design<f64>>> {
 /// Beside Housner's history of so many samples of a record.
 fn on(record: &Record, structure: &Structure, samples: usize, judge: impl FnOnce(&Benchmark)) {
     let (body, dt, accel) = (structure.body::<f64>(), record.dt, &record.accel[..samples]);
-    let housner = &solve(&body, dt, accel, &RockingOptions::default()).motion(&body);
+    let housner = &history(&body, dt, accel).motion(&body);
     judge(&Benchmark { body, dt, accel, vertical: &[], housner, effort: &Effort::unbounded() });
 }
 
