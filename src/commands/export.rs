@@ -143,7 +143,7 @@ fn stepping<U>(
         (None, Some(program)) if o.format.is_sap2000() => match program.is_csi() {
             true => Ok(Stepping::Even),
             false => {
-                let integrator = program.integrator.clone();
+                let integrator = program.integrator.to_string();
                 Err(ExportError::AnotherProgram { integrator })
             }
         },

@@ -13,7 +13,7 @@ use serde::Deserialize;
 
 use super::{CaseError, Limits};
 use fixed_steps::{
-    FixedStepProgram, Integrator, IntegratorNameError, ProgramName,
+    FixedStepProgram, IntegratorNameError, ProgramName,
     program::{SUBSTEPS, USUAL_STEP},
 };
 
@@ -25,8 +25,6 @@ const SUBSTEP_LIMITS: (usize, usize) = (1, 4096);
 /// What to give for a program that is none.
 const NAMES: &str =
     "give sap2000, etabs or opensees-even; for another program: --step and --integrator";
-/// HHT with alpha's sign forgotten, as other programs write it.
-const SIGN: &str = "alpha of HHT is negative or zero here: give hht:-0.333, or nearer to zero";
 
 /// A program with fixed time steps, as it is asked for.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
@@ -70,18 +68,16 @@ impl ProgramSection {
     /// A name, a step, an integrator, a number of substeps that cannot be.
     pub fn checked(&self) -> Result<FixedStepProgram, ProgramMistake> {
         let name = match &self.name {
-            Some(name) => {
-                Some(program_name(name).ok_or_else(|| ("for", quoted(name), NAMES.to_string()))?)
-            }
+            Some(name) => Some(name.parse().map_err(|_| ("for", quoted(name), NAMES.to_string()))?),
             None => self.integrator.is_none().then_some(ProgramName::Sap2000),
         };
         let step = STEP
             .check(self.step_s.unwrap_or(USUAL_STEP))
             .map_err(|(v, remedy)| ("step_s", v, remedy.into()))?;
         let integrator = match &self.integrator {
-            Some(given) => {
-                read_integrator(given).map_err(|remedy| ("integrator", quoted(given), remedy))?
-            }
+            Some(given) => given.parse().map_err(|wrong: IntegratorNameError| {
+                ("integrator", quoted(given), wrong.remedy())
+            })?,
             None => name.unwrap_or(ProgramName::Sap2000).integrator(),
         };
         if let (Some(given), Some(name)) = (&self.integrator, name)
@@ -121,31 +117,6 @@ impl ProgramSection {
     }
 }
 
-/// A program by its name, however it is written: "SAP 2000" is sap2000.
-fn program_name(name: &str) -> Option<ProgramName> {
-    let plain = |name: &str| -> String {
-        let letters = name.chars().filter(|c| !c.is_whitespace() && !"-_".contains(*c));
-        letters.flat_map(char::to_lowercase).collect()
-    };
-    ProgramName::ALL.into_iter().find(|known| plain(known.key()) == plain(name))
-}
-
-/// An integrator by its name, `hht` alone with the most damping; else what to give.
-fn read_integrator(given: &str) -> Result<Integrator, String> {
-    if given.eq_ignore_ascii_case("hht") {
-        return Ok(Integrator::HHT_MOST);
-    }
-    let lower = given.to_ascii_lowercase();
-    let alpha = lower.strip_prefix("hht:").and_then(|alpha| alpha.parse::<f64>().ok());
-    if alpha.is_some_and(|alpha| alpha > 0.0) {
-        return Err(SIGN.into());
-    }
-    given.parse().map_err(|e: IntegratorNameError| {
-        let remedy = e.to_string();
-        remedy.split_once(": ").map_or(remedy.clone(), |(_, remedy)| remedy.to_string())
-    })
-}
-
 fn quoted(name: &str) -> String {
     format!("{name:?}")
 }
@@ -154,6 +125,7 @@ fn quoted(name: &str) -> String {
 mod tests {
     use super::*;
     use crate::Case;
+    use fixed_steps::Integrator;
 
     #[test]
     fn a_program_is_named_or_its_integrator_is() {
@@ -168,15 +140,8 @@ mod tests {
             read("[program]\nintegrator = 'hht:-0.1'\nsubsteps = 1\n").unwrap().program.unwrap();
         assert_eq!((program.name, program.integrator), (None, Integrator::Hht { alpha: -0.1 }));
         assert_eq!((program.step, program.substeps), (1e-3, 1));
-        for name in ["SAP2000", "SAP 2000", "sap-2000", "Sap_2000"] {
-            let program = read(&format!("[program]\nfor = '{name}'\n")).unwrap().program;
-            assert_eq!(program.unwrap().name, Some(ProgramName::Sap2000), "{name}");
-        }
-        let open_sees = read("[program]\nfor = 'OpenSees even'\n").unwrap().program.unwrap();
-        assert_eq!(open_sees.name, Some(ProgramName::OpenSees));
-        // without a number it is the one that SAP2000 is to be set to
-        let hht = read("[program]\nfor = 'sap2000'\nintegrator = 'HHT'\n").unwrap().program;
-        assert_eq!(hht.unwrap().integrator, ProgramName::Sap2000.integrator());
+        let hht = read("[program]\nfor = 'SAP 2000'\nintegrator = 'HHT'\n").unwrap().program;
+        assert_eq!(hht, Some(FixedStepProgram::usual()));
         for (wrong, told) in [
             ("for = 'abaqus'", "program.for is \"abaqus\"; give sap2000"),
             ("integrator = 'hht:0.333'", "give hht:-0.333"),

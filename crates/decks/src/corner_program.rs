@@ -64,7 +64,7 @@ impl CornerProgram {
     }
 
     /// Settings of its steps.
-    pub(crate) fn steps(&self) -> Result<EvenSteps, ExportError> {
+    pub(crate) fn steps(&self) -> EvenSteps {
         EvenSteps::new(&self.row, self.touches)
     }
 
@@ -72,7 +72,7 @@ impl CornerProgram {
     /// gives up, if it does (s).
     ///
     /// # Errors
-    /// An integrator that is not known; as many units as corners are needed.
+    /// As many units as corners are needed.
     pub fn history(
         &self,
         assembled: &Assembled,
@@ -84,7 +84,7 @@ impl CornerProgram {
         let still = DVector::zeros(frame.size());
         let weight = frame.whole_mass(&still) * GRAVITY;
         let model = FixedStepFrame::new(frame, &springs).map_err(failed)?;
-        let settings = self.steps()?.settings(weight);
+        let settings = self.steps().settings(weight);
         let analysis = FixedStepAnalysis::new(&model, settings, record.dt, &record.accel);
         let analysis = FixedStepAnalysis { vertical: record.up(), ..analysis };
         let history = analysis.history().map_err(failed)?;

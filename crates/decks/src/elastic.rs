@@ -84,9 +84,9 @@ impl ElasticDeck<'_> {
             DeckFormat::OpenSeesTcl => self.fill(&TCL, include_str!("elastic_deck.tcl"))?,
             DeckFormat::Sap2000 => sap2000::tables(&self.sap2000(format)?),
             DeckFormat::Sap2000Sheet => sap2000::sheet(&self.sap2000(format)?),
-            DeckFormat::Csv => plain::csv(self.even()?.as_ref(), &self.places()),
+            DeckFormat::Csv => plain::csv(self.even().as_ref(), &self.places()),
             DeckFormat::Markdown => {
-                let even = self.even()?;
+                let even = self.even();
                 let mut text = plain::markdown(self.title, even.as_ref(), &self.places());
                 if let Some(damped) = even.map(|even| even.forces_at()).filter(|&by| by < 1.0) {
                     text.push_str(&format!(
@@ -102,7 +102,7 @@ impl ElasticDeck<'_> {
     /// The model for SAP2000.
     fn sap2000(&self, format: DeckFormat) -> Result<sap2000::SapModel<'_>, ExportError> {
         self.without_members(format)?;
-        let even = self.even()?.ok_or(ExportError::EventsInTables)?;
+        let even = self.even().ok_or(ExportError::EventsInTables)?;
         if even.touches > 1 {
             return Err(ExportError::TouchesInTables);
         }
@@ -111,8 +111,8 @@ impl ElasticDeck<'_> {
     }
 
     /// Settings of steps of one size, if the springs are for such.
-    fn even(&self) -> Result<Option<EvenSteps>, ExportError> {
-        self.program.map(CornerProgram::steps).transpose()
+    fn even(&self) -> Option<EvenSteps> {
+        self.program.map(CornerProgram::steps)
     }
 
     /// The corners from the left, and what is under them.
@@ -155,7 +155,7 @@ impl ElasticDeck<'_> {
 
     fn fill(&self, language: &Language, template: &str) -> Result<String, ExportError> {
         let rise = SMALL_MOTION * self.frame.stance() * self.alpha;
-        let even = self.even()?;
+        let even = self.even();
         // OpenSees' damping objects act 1/(1 + alpha) times too strongly under HHT: the change of a
         // force over a step, divided by (1 + alpha) dt
         let damped = even.map_or(1.0, |even| even.forces_at());

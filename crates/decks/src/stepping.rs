@@ -10,7 +10,7 @@ use fixed_steps::{
 };
 use parameters::{
     Parameters,
-    program::{ProgramErrors, ProgramRow, ProgramTest},
+    program::{FootUnits, ProgramErrors, ProgramRow, ProgramTest},
 };
 use results::NotToBeUsed;
 use rocking::{
@@ -90,19 +90,15 @@ pub(crate) struct EvenSteps {
 }
 
 impl EvenSteps {
-    pub(crate) fn new<U>(row: &ProgramRow<U>, touches: usize) -> Result<Self, ExportError> {
-        let unknown = |_| ExportError::Integrator {
-            name: crate::printable(&row.integrator),
-            program: "any program",
-        };
+    pub(crate) fn new<U>(row: &ProgramRow<U>, touches: usize) -> Self {
         let unbalance = match row.converged {
             // the program's own test knows no substeps
             ProgramTest::UnbalanceOverWeight(most) if touches == 1 => Some(most),
             _ => None,
         };
-        Ok(Self {
+        Self {
             step: row.step_s,
-            integrator: row.integrator.parse().map_err(unknown)?,
+            integrator: row.integrator,
             substeps: row.substeps,
             touches,
             newton: row.newton_iterations,
@@ -111,7 +107,7 @@ impl EvenSteps {
             not_to_be_used: row.not_to_be_used(),
             errors: [row.expected.synthetic, row.expected.earthquakes],
             etabs: row.is_etabs(),
-        })
+        }
     }
 
     /// Why the springs are not to be used; those for substeps at touches were not measured.
@@ -206,19 +202,19 @@ pub(crate) struct Stepped {
 
 impl Stepped {
     pub(crate) fn new(parameters: &Parameters, stepping: Stepping) -> Result<Self, ExportError> {
-        let (Some(row), Some(program)) = (&parameters.program, parameters.in_program()) else {
+        let Some(row) = &parameters.program else {
             return Err(ExportError::no_program(parameters));
         };
+        let FootUnits { vertical, horizontal, .. } = row.units;
         // as decks hold it
-        let program = Parameters {
-            structure: with_inertia(&program.structure, &program.members()),
-            ..program
-        };
+        let structure =
+            with_inertia(&row.units.structure(&parameters.structure), &parameters.members());
+        let program = Parameters { structure, vertical, horizontal, ..parameters.clone() };
         let touches = stepping.at_touches();
         let given = parameters.structure;
         let adds_inertia =
             program.structure.rotational_inertia_kgm2 != given.rotational_inertia_kgm2;
-        let steps = EvenSteps { adds_inertia, ..EvenSteps::new(row, touches)? };
+        let steps = EvenSteps { adds_inertia, ..EvenSteps::new(row, touches) };
         if touches == 1 {
             return Ok(Self { parameters: program, steps, given });
         }

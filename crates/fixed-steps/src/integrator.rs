@@ -20,10 +20,12 @@
 //! paper's, and its BackwardEuler is the three-point formula, second-order accurate. Forces are
 //! taken at the place between the ends, as OpenSees' HHT does it, not weighted between them.
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// How a program steps.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub enum Integrator {
     /// Newmark's method; (1/2, 1/4) is the trapezoidal rule.
     Newmark {

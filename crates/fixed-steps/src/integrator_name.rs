@@ -17,9 +17,26 @@ pub enum IntegratorNameError {
         /// As given.
         name: String,
     },
+    /// HHT with alpha's sign forgotten, as other programs write it.
+    #[error(
+        "integrator {name:?}: alpha of HHT is negative or zero here: give hht:-0.333, or nearer to \
+         zero"
+    )]
+    Sign {
+        /// As given.
+        name: String,
+    },
     /// It is unstable.
     #[error(transparent)]
     Unstable(#[from] IntegratorError),
+}
+
+impl IntegratorNameError {
+    /// What to give.
+    pub fn remedy(&self) -> String {
+        let told = self.to_string();
+        told.split_once(": ").map_or(told.clone(), |(_, remedy)| remedy.to_string())
+    }
 }
 
 impl fmt::Display for Integrator {
@@ -48,6 +65,20 @@ impl Integrator {
     }
 }
 
+impl TryFrom<String> for Integrator {
+    type Error = IntegratorNameError;
+
+    fn try_from(name: String) -> Result<Self, IntegratorNameError> {
+        name.parse()
+    }
+}
+
+impl From<Integrator> for String {
+    fn from(integrator: Integrator) -> Self {
+        integrator.to_string()
+    }
+}
+
 impl FromStr for Integrator {
     type Err = IntegratorNameError;
 
@@ -61,6 +92,10 @@ impl FromStr for Integrator {
         let integrator = match (head, numbers.as_slice()) {
             ("newmark", []) => Self::AVERAGE_ACCELERATION,
             ("newmark", &[gamma, beta]) => Self::Newmark { gamma, beta },
+            ("hht", []) => Self::HHT_MOST,
+            ("hht", &[alpha]) if alpha > 0.0 => {
+                return Err(IntegratorNameError::Sign { name: name.into() });
+            }
             ("hht", &[alpha]) => Self::Hht { alpha },
             ("generalized-alpha", &[rho_inf]) => Self::GeneralizedAlpha { rho_inf },
             ("trbdf2", []) => Self::Trbdf2,
@@ -87,9 +122,13 @@ mod tests {
             assert_eq!(integrator.to_string().parse(), Ok(integrator));
         }
         assert_eq!("HHT:-0.1".parse(), Ok(Integrator::Hht { alpha: -0.1 }));
+        // without a number it is the one that SAP2000 is to be set to
+        assert_eq!("HHT".parse(), Ok(Integrator::HHT_MOST));
         // OpenSees' own number
-        assert!(matches!("hht:0.9".parse::<Integrator>(), Err(IntegratorNameError::Unstable(_))));
-        for unknown in ["wilson:1.4", "hht", "hht:", "hht:x", "trbdf2:1", "newmark:0.5", ""] {
+        let [sign, unstable] = ["hht:0.9", "hht:-0.9"].map(|name| name.parse::<Integrator>());
+        assert!(matches!(sign, Err(IntegratorNameError::Sign { .. })));
+        assert!(matches!(unstable, Err(IntegratorNameError::Unstable(_))));
+        for unknown in ["wilson:1.4", "hht:", "hht:x", "trbdf2:1", "newmark:0.5", ""] {
             let error = unknown.parse::<Integrator>().unwrap_err();
             assert!(error.to_string().contains("backward-euler"), "{error}");
         }

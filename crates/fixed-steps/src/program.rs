@@ -14,6 +14,7 @@
 
 use std::{fmt, str::FromStr};
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::{
@@ -24,8 +25,9 @@ use crate::{
 };
 use rocking::scalar::GRAVITY;
 
-/// A program that takes steps of one size.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// A program that takes steps of one size; in files as users name it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub enum ProgramName {
     /// CSI's SAP2000.
     Sap2000,
@@ -106,12 +108,28 @@ impl fmt::Display for ProgramName {
 impl FromStr for ProgramName {
     type Err = ProgramNameError;
 
+    /// However it is written: "SAP 2000" is sap2000.
     fn from_str(name: &str) -> Result<Self, ProgramNameError> {
-        let lower = name.to_ascii_lowercase();
-        Self::ALL
-            .into_iter()
-            .find(|p| p.key() == lower)
-            .ok_or_else(|| ProgramNameError { name: name.into() })
+        let plain = |name: &str| -> String {
+            let letters = name.chars().filter(|c| !c.is_whitespace() && !"-_".contains(*c));
+            letters.flat_map(char::to_lowercase).collect()
+        };
+        let known = Self::ALL.into_iter().find(|known| plain(known.key()) == plain(name));
+        known.ok_or_else(|| ProgramNameError { name: name.into() })
+    }
+}
+
+impl TryFrom<String> for ProgramName {
+    type Error = ProgramNameError;
+
+    fn try_from(name: String) -> Result<Self, ProgramNameError> {
+        name.parse()
+    }
+}
+
+impl From<ProgramName> for String {
+    fn from(name: ProgramName) -> Self {
+        name.key().into()
     }
 }
 
@@ -138,7 +156,7 @@ pub const USUAL_STEP: f64 = 1e-3;
 /// rigid body: the foot that bore all drops about so much as it lifts in a landing, which is then
 /// missing on its node and on the absorber's. With less, iterations that go to and fro between the
 /// foot on the ground and in the air never arrive (`cargo bench --bench fixed_steps -- tolerance`).
-pub const DROPPED: f64 = std::f64::consts::SQRT_2;
+const DROPPED: f64 = std::f64::consts::SQRT_2;
 /// Newton's iterations of a step at most, as a public generator of SAP2000's tables has them.
 const CSI_NEWTON: usize = 40;
 
@@ -155,12 +173,12 @@ impl FixedStepProgram {
     }
 
     /// Whether its test of convergence is an unbalance over the structure's weight.
-    pub fn tests_unbalance(&self) -> bool {
+    fn tests_unbalance(&self) -> bool {
         matches!(self.name, Some(ProgramName::Sap2000 | ProgramName::Etabs))
     }
 
     /// How it steps a structure that this horizontal force lifts (N): to a change of place of g
-    /// dt^2/10, or to an unbalance ([`DROPPED`]).
+    /// dt^2/10, or to an unbalance (`DROPPED`).
     pub fn settings(&self, lifting: f64) -> StepSettings {
         let iteration = if self.tests_unbalance() {
             let test = ConvergenceTest::Unbalance(DROPPED * lifting);
@@ -186,7 +204,10 @@ mod tests {
         for name in ProgramName::ALL {
             assert_eq!(name.to_string().parse(), Ok(name));
         }
-        assert_eq!("SAP2000".parse(), Ok(ProgramName::Sap2000));
+        for name in ["SAP2000", "SAP 2000", "sap-2000", "Sap_2000"] {
+            assert_eq!(name.parse(), Ok(ProgramName::Sap2000));
+        }
+        assert_eq!("OpenSees even".parse(), Ok(ProgramName::OpenSees));
         let hht = |alpha: f64| ProgramName::Etabs.has(Integrator::Hht { alpha });
         assert_eq!([-0.4, -0.3334, -1.0 / 3.0, 0.0].map(hht), [false, false, true, true]);
         assert!(ProgramName::OpenSees.has(Integrator::Hht { alpha: -0.4 }));

@@ -213,18 +213,6 @@ impl Parameters {
         Springs { vertical: self.vertical.chain(), horizontal: self.horizontal.chain() }
     }
 
-    /// The model for the program with fixed time steps, on its springs, if there is one.
-    pub fn in_program(&self) -> Option<Self> {
-        let row = self.program.as_ref()?;
-        let FootUnits { vertical, horizontal, .. } = row.units;
-        Some(Self {
-            structure: row.units.structure(&self.structure),
-            vertical,
-            horizontal,
-            ..self.clone()
-        })
-    }
-
     /// What the structure has besides the rigid body.
     pub fn members(&self) -> Members {
         Members { damper: self.damper, tendon: self.tendon, friction: self.friction }

@@ -94,8 +94,8 @@ pub struct CornerUnits {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ProgramRow<U> {
     /// Which: sap2000, etabs, opensees-even; none: any with this integrator.
-    #[serde(rename = "for", default, skip_serializing_if = "Option::is_none")]
-    pub name: Option<String>,
+    #[serde(rename = "for", skip_serializing_if = "Option::is_none")]
+    pub name: Option<ProgramName>,
     /// Whether a user asked for it: then its springs are judged on motions that did not choose
     /// them.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -103,7 +103,7 @@ pub struct ProgramRow<U> {
     /// Its step (s).
     pub step_s: f64,
     /// Its integrator, as `--integrator` takes it.
-    pub integrator: String,
+    pub integrator: Integrator,
     /// A step that fails is halved, down to one in so many.
     pub substeps: usize,
     /// Newton's iterations of a step, at most.
@@ -174,10 +174,10 @@ impl<U> ProgramRow<U> {
     ) -> Self {
         let Iteration { newton, test, .. } = settings.iteration;
         Self {
-            name: program.name.map(|name| name.key().into()),
+            name: program.name,
             asked: false,
             step_s: program.step,
-            integrator: program.integrator.to_string(),
+            integrator: program.integrator,
             substeps: program.substeps,
             newton_iterations: newton,
             converged: match test {
@@ -259,12 +259,12 @@ impl<U> ProgramRow<U> {
     /// Whether a program can step so; `path` names the file in messages.
     ///
     /// # Errors
-    /// A name, a step, an integrator, a number of substeps that cannot be.
+    /// A step, an integrator of that program, a number of substeps that cannot be.
     pub(crate) fn check(&self, path: &str) -> Result<(), ParametersError> {
         let section = ProgramSection {
-            name: self.name.clone(),
+            name: self.name.map(Into::into),
             step_s: Some(self.step_s),
-            integrator: Some(self.integrator.clone()),
+            integrator: Some(self.integrator.into()),
             substeps: Some(self.substeps),
         };
         let mistake = |(key, value, remedy)| ParametersError::Program {
@@ -278,29 +278,28 @@ impl<U> ProgramRow<U> {
 
     /// The program in words.
     pub fn program(&self) -> String {
-        self.known().map_or_else(|| "a program".into(), |name| name.words().into())
+        self.name.map_or("a program", ProgramName::words).into()
     }
 
     /// Whether it is SAP2000 or ETABS.
     pub fn is_csi(&self) -> bool {
-        matches!(self.known(), Some(ProgramName::Sap2000 | ProgramName::Etabs))
+        matches!(self.name, Some(ProgramName::Sap2000 | ProgramName::Etabs))
     }
 
     /// Whether it is ETABS, which reads no tables of SAP2000's.
     pub fn is_etabs(&self) -> bool {
-        self.known() == Some(ProgramName::Etabs)
+        self.name == Some(ProgramName::Etabs)
     }
 
     /// Whether its springs come in decks for OpenSees: of OpenSees itself, and of a program that
     /// is known by its integrator alone, if OpenSees has that.
     pub fn in_opensees(&self) -> bool {
-        let integrator = self.integrator.parse::<Integrator>();
-        !self.is_csi() && integrator.is_ok_and(|integrator| ProgramName::OpenSees.has(integrator))
+        !self.is_csi() && ProgramName::OpenSees.has(self.integrator)
     }
 
     /// Whether its springs come in SAP2000's tables.
     pub fn in_sap2000(&self) -> bool {
-        self.known() == Some(ProgramName::Sap2000)
+        self.name == Some(ProgramName::Sap2000)
     }
 
     /// Whether the springs are of no use, why, and what to do.
@@ -362,23 +361,13 @@ impl<U> ProgramRow<U> {
 
     /// Whether its integrator is the one that is taken unless another one is given.
     fn has_usual_integrator(&self) -> bool {
-        let usual = self.known().unwrap_or(ProgramName::Sap2000).integrator();
-        match (self.integrator.parse(), usual) {
-            (Ok(Integrator::Hht { alpha }), Integrator::Hht { alpha: usual }) => {
+        let usual = self.name.unwrap_or(ProgramName::Sap2000).integrator();
+        match (self.integrator, usual) {
+            (Integrator::Hht { alpha }, Integrator::Hht { alpha: usual }) => {
                 (alpha - usual).abs() < SAME_ALPHA
             }
-            (Ok(given), usual) => given == usual,
-            (Err(_), _) => false,
+            (given, usual) => given == usual,
         }
-    }
-
-    fn known(&self) -> Option<ProgramName> {
-        self.name.as_deref()?.parse().ok()
-    }
-
-    /// Its integrator in words: "HHT alpha -1/3".
-    pub fn integrator_words(&self) -> String {
-        self.integrator.parse::<Integrator>().map_or(self.integrator.clone(), |i| i.words())
     }
 }
 

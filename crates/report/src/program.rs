@@ -228,7 +228,7 @@ fn settings<U>(
     output: Option<ProgramSetting>,
 ) -> Vec<ProgramSetting> {
     let set = ProgramSetting::new;
-    let (integrator, newton) = (row.integrator_words(), row.newton_iterations);
+    let (integrator, newton) = (row.integrator.words(), row.newton_iterations);
     let [largest, least] = [1, row.substeps].map(|n| significant(row.step_s / n as f64, 4));
     let mut all = vec![set("integrator", integrator.clone(), integrator)];
     all.extend(output);

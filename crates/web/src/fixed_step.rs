@@ -32,7 +32,7 @@ pub(crate) fn preliminary(case: &AnyCase) -> Result<PreliminarySprings, WebError
     Ok(PreliminarySprings {
         program: row.program(),
         steps: quantity(row.step_s, "s"),
-        integrator: row.integrator_words(),
+        integrator: row.integrator.words(),
         springs: vec![
             Unit::new("vertical", &vertical.chain()),
             Unit::new("horizontal", &horizontal.chain()),

@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::{CommandError, terminal};
 use decks::{Stepping, stepped_model};
 use dynamics::fem;
+use fixed_steps::{Integrator, ProgramName};
 use parameters::Parameters;
 use results::NotToBeUsed;
 use validation::JudgedModel;
@@ -14,10 +15,10 @@ use validation::JudgedModel;
 pub(super) struct JudgedProgram {
     /// As `[program]` names it; none: any program with this integrator.
     #[serde(rename = "for", skip_serializing_if = "Option::is_none")]
-    name: Option<String>,
+    name: Option<ProgramName>,
     /// (s)
     step_s: f64,
-    integrator: String,
+    integrator: Integrator,
     /// Substeps of a step at touches; 1: none.
     substeps_at_touches: usize,
     /// I_cg that the program's model has.
@@ -77,9 +78,9 @@ impl JudgedSprings {
         let (model, settings) = (stepped.model, stepped.settings);
         let touches = settings.at_touches;
         let program = JudgedProgram {
-            name: row.name.clone(),
+            name: row.name,
             step_s: row.step_s,
-            integrator: row.integrator.clone(),
+            integrator: row.integrator,
             substeps_at_touches: touches,
             rotational_inertia_kgm2: stepped.parameters.structure.rotational_inertia_kgm2,
         };
@@ -88,7 +89,7 @@ impl JudgedSprings {
         let steps = format!(
             "steps: {}, {}, {} s each{at_touches}, emulated",
             row.program(),
-            row.integrator_words(),
+            row.integrator.words(),
             row.step_s
         );
         // that verdict is of the springs for even steps

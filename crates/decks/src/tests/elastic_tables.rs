@@ -3,6 +3,7 @@
 use super::{Tables, number, read_s2k, refers_to_what_it_defines};
 use crate::{CornerProgram, DeckFormat, ElasticDeck, ExportError, Stepping};
 use dynamics::spring::{Chain, Springs};
+use fixed_steps::Integrator;
 use frames::{assembled::Assembled, structure::ElasticStructure};
 use parameters::program::{CornerUnits, ProgramRow};
 use rocking::{
@@ -35,7 +36,7 @@ fn springs(corners: usize) -> Vec<Springs<Chain>> {
 
 fn deck(model: &Assembled, record: &Record) -> Result<String, ExportError> {
     let springs = springs(model.frame.places().len());
-    let row = ProgramRow { integrator: "hht:-0.3333333333333333".into(), ..program_row(0.001) };
+    let row = ProgramRow { integrator: Integrator::HHT_MOST, ..program_row(0.001) };
     deck_of(model, record, (&springs, Some(&CornerProgram::even(&row))), DeckFormat::Sap2000)
 }
 

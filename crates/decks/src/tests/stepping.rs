@@ -243,7 +243,7 @@ fn what_has_no_springs_or_no_integrator_for_a_program_is_refused() {
         refused(&damped, DeckFormat::OpenSeesPy, Stepping::Even).contains("not made for a damper")
     );
     let mut alpha = even;
-    alpha.program.as_mut().unwrap().integrator = "generalized-alpha:0".into();
+    alpha.program.as_mut().unwrap().integrator = Integrator::GENERALIZED_ALPHA_0;
     assert!(
         refused(&alpha, DeckFormat::OpenSeesPy, Stepping::Even)
             .contains("generalized-alpha:0 is not written")

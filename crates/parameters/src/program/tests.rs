@@ -9,10 +9,10 @@ fn errors(median: Option<f64>) -> ProgramErrors {
 /// A row at a step of 1 ms whose floor is this.
 fn row(floor: f64, synthetic: Option<f64>) -> ProgramRow<()> {
     ProgramRow {
-        name: Some("sap2000".into()),
+        name: Some(ProgramName::Sap2000),
         asked: true,
         step_s: 1e-3,
-        integrator: "hht:-0.333".into(),
+        integrator: Integrator::Hht { alpha: -0.333 },
         substeps: 16,
         newton_iterations: 40,
         converged: ProgramTest::UnbalanceOverWeight(0.1),
@@ -98,17 +98,14 @@ fn what_errs_by_more_than_a_tenth_is_not_to_be_used() {
 #[test]
 fn an_integrator_that_fails_gives_way_to_the_usual_one() {
     for (name, integrator, usual) in [
-        (Some("sap2000"), "newmark:0.5:0.25", false),
-        (Some("sap2000"), "hht:-0.3333333333333333", true),
-        (Some("opensees-even"), "backward-euler", true),
-        (Some("opensees-even"), "hht:-0.333", false),
+        (Some(ProgramName::Sap2000), "newmark:0.5:0.25", false),
+        (Some(ProgramName::Sap2000), "hht:-0.3333333333333333", true),
+        (Some(ProgramName::OpenSees), "backward-euler", true),
+        (Some(ProgramName::OpenSees), "hht:-0.333", false),
         (None, "newmark:0.5:0.25", false),
     ] {
-        let failing = ProgramRow {
-            name: name.map(Into::into),
-            integrator: integrator.into(),
-            ..row(0.02, None)
-        };
+        let failing =
+            ProgramRow { name, integrator: integrator.parse().unwrap(), ..row(0.02, None) };
         let advice = failing.not_to_be_used().unwrap().advice;
         assert_eq!(advice != ProgramAdvice::DefaultIntegrator, usual, "{name:?} {integrator}");
     }
@@ -147,12 +144,19 @@ fn a_program_that_cannot_step_so_is_refused() {
     let messages = [
         refused(|row| row.step_s = 0.0),
         refused(|row| row.step_s = -1e-3),
-        refused(|row| row.name = Some("sap200".into())),
-        refused(|row| row.integrator = "hht:0.3".into()),
+        refused(|row| row.integrator = Integrator::Trbdf2),
         refused(|row| row.substeps = 0),
     ];
-    for (message, key) in messages.iter().zip(["step_s", "step_s", "for", "integrator", "substeps"])
-    {
+    for (message, key) in messages.iter().zip(["step_s", "step_s", "integrator", "substeps"]) {
         assert!(message.starts_with(&format!("p.json: program.{key} is ")), "{message}");
+    }
+    // names are read where the file is
+    let text = serde_json::to_string(&row(0.02, None)).unwrap();
+    for (from, to, give) in [
+        ("sap2000", "sap200", "give sap2000, etabs or opensees-even"),
+        ("hht:-0.333", "hht:0.333", "give hht:-0.333"),
+    ] {
+        let read = serde_json::from_str::<ProgramRow<()>>(&text.replace(from, to));
+        assert!(read.unwrap_err().to_string().contains(give));
     }
 }
