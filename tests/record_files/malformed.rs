@@ -4,38 +4,29 @@ use strong_motion::{ReadOptions, Recording};
 
 use crate::write;
 
-/// The text with line `at` (from 1) edited.
+/// The text with every line (from 1) changed; one that becomes none is left out.
+fn changed(text: &str, change: impl Fn(usize, &str) -> Option<String>) -> String {
+    let lines = text.lines().enumerate().filter_map(|(i, line)| change(i + 1, line));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// The text with line `at` edited.
 fn edit(text: &str, at: usize, change: impl Fn(&str) -> String) -> String {
-    let lines: Vec<String> = text
-        .lines()
-        .enumerate()
-        .map(|(i, line)| if i + 1 == at { change(line) } else { line.to_owned() })
-        .collect();
-    lines.join("\n")
+    changed(text, |i, line| Some(if i == at { change(line) } else { line.to_owned() }))
 }
 
 /// The text up to line `at`.
 fn cut(text: &str, at: usize) -> String {
-    text.lines().take(at).collect::<Vec<_>>().join("\n")
+    changed(text, |i, line| (i <= at).then(|| line.to_owned()))
 }
 
 /// The text with a word replaced from line `from` on.
 fn replaced(text: &str, from: usize, word: &str, by: &str) -> String {
-    let lines: Vec<String> = text
-        .lines()
-        .enumerate()
-        .map(|(i, l)| if i + 1 < from { l.to_owned() } else { l.replace(word, by) })
-        .collect();
-    lines.join("\n")
+    changed(text, |i, line| Some(if i < from { line.to_owned() } else { line.replace(word, by) }))
 }
 
 fn without(text: &str, at: usize) -> String {
-    text.lines()
-        .enumerate()
-        .filter(|(i, _)| i + 1 != at)
-        .map(|(_, line)| line)
-        .collect::<Vec<_>>()
-        .join("\n")
+    changed(text, |i, line| (i != at).then(|| line.to_owned()))
 }
 
 fn line_of(text: &str, words: &str) -> usize {

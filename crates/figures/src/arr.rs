@@ -149,25 +149,23 @@ fn dot(curve: &UnitCurve<'_>) -> Mark {
     Mark::new(mark::series(i), 9.0, style::series(i))
 }
 
+/// The least and the largest of numbers above zero.
+fn range(all: impl Iterator<Item = f64>) -> (f64, f64) {
+    all.filter(|x| *x > 0.0)
+        .fold((f64::INFINITY, 0.0_f64), |(low, high), x| (low.min(x), high.max(x)))
+}
+
 fn g_axis(data: &ResponseFigure<'_>) -> Scale {
-    let all = data.curves.iter().flat_map(|curve| curve.g).copied().filter(|g| *g > 0.0);
-    let (low, high) =
-        all.fold((f64::INFINITY, 0.0_f64), |(low, high), g| (low.min(g), high.max(g)));
+    let all = data.curves.iter().flat_map(|curve| curve.g).copied();
+    let (low, high) = range(all);
     if high > 0.0 { Scale::log(low, high) } else { Scale::log(0.05, 20.0) }
 }
 
 /// The tails of the curves may fall for ever; four decades below the top are enough to see them go.
 fn arr_axis(data: &ResponseFigure<'_>) -> Scale {
     let caps = data.target.iter().filter_map(|band| band.at_most);
-    let all = data
-        .curves
-        .iter()
-        .flat_map(|curve| curve.arr)
-        .copied()
-        .chain(caps)
-        .filter(|arr| *arr > 0.0);
-    let (low, high) =
-        all.fold((f64::INFINITY, 0.0_f64), |(low, high), arr| (low.min(arr), high.max(arr)));
+    let all = data.curves.iter().flat_map(|curve| curve.arr).copied().chain(caps);
+    let (low, high) = range(all);
     if high > 0.0 {
         Scale::log(low.max(high * 1e-4).min(high / 10.0), high * 2.2)
     } else {

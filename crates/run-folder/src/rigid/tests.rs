@@ -11,6 +11,11 @@ use strong_motion::excitation::Excitation;
 
 use super::*;
 
+const BLOCK: &str =
+    "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 1000.0\n";
+const FRAME: &str =
+    "[structure]\nkind = \"aframe\"\nheight_m = 61.0\nwidth_m = 12.2\nmass_kg = 680.1e3\n";
+
 /// A run of a short stretch of El Centro.
 fn run(scale: f64, toml: Option<&str>) -> RigidRun {
     run_within((160.0, 0.1), scale, toml)
@@ -27,6 +32,10 @@ fn run_within((most_hz, accuracy): (f64, f64), scale: f64, toml: Option<&str>) -
     case.tuning.accuracy = accuracy;
     let job = Job::new(&case, &|_, _, _| {}).unwrap();
     RigidRun::new(case, job, Vec::new(), 0.5)
+}
+
+fn screen_of(said: &Run, folder: &str) -> String {
+    screen(said, &Written { folder, report: true, decks: true, left_out: &[] })
 }
 
 fn page_of(run: &RigidRun, figures: bool) -> String {
@@ -80,8 +89,7 @@ fn a_frame_that_never_lifts_is_said_to_stand() {
 
 #[test]
 fn a_block_that_overturns_is_said_to_and_marked() {
-    let block = "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 1000.0\n";
-    let page = words_of(&page_of(&run(2.5, Some(block)), true));
+    let page = words_of(&page_of(&run(2.5, Some(BLOCK)), true));
     assert!(page.contains("The structure overturns at t = 4.4"));
     assert!(page.contains("overturned at t = 4.4"));
 }
@@ -89,8 +97,7 @@ fn a_block_that_overturns_is_said_to_and_marked() {
 /// An overturning that comes later than a motion can be predicted is not told as certain.
 #[test]
 fn an_overturning_that_cannot_be_predicted_is_told_as_chance() {
-    let block = "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 1000.0\n";
-    let run = run(2.5, Some(block));
+    let run = run(2.5, Some(BLOCK));
     let mut said = run.said(run.parameters.clone());
     assert!(!said.verdict().contains("by chance"), "{}", said.verdict());
     let sensitive = Finding::IllConditioned {
@@ -117,9 +124,7 @@ fn a_page_without_figures_is_whole() {
 
 /// The paper's frame, for a program with steps of this size (s).
 fn run_for(program: &str, step_s: f64) -> RigidRun {
-    let frame = "[structure]\nkind = \"aframe\"\nheight_m = 61.0\nwidth_m = 12.2\n\
-        mass_kg = 680.1e3\n";
-    run(1.0, Some(&format!("{frame}[program]\nfor = \"{program}\"\nstep_s = {step_s:?}\n")))
+    run(1.0, Some(&format!("{FRAME}[program]\nfor = \"{program}\"\nstep_s = {step_s:?}\n")))
 }
 
 /// What a program's springs err on the record is told up to the time that is printed beside it,
@@ -169,8 +174,7 @@ fn a_program_that_is_asked_for_has_its_sheet() {
         assert!(begin[1].starts_with("1.000000000e-5 -6.28"), "{begin:?}");
         assert!(sheet_text.contains("it begins at 0, for the"), "{sheet_text}");
         let said = run.said(filed(&run, Path::new("out")));
-        let written = Written { folder: "out", report: true, decks: true, left_out: &[] };
-        let text = screen(&said, &written);
+        let text = screen_of(&said, "out");
         let last = text.lines().last().unwrap();
         assert!(last.contains(says) && last.ends_with(&format!("out/decks/{sheet}")), "{last}");
         // its springs first, and nothing of its lines cut
@@ -208,9 +212,7 @@ fn a_program_that_is_asked_for_has_its_sheet() {
 /// Springs for an integrator that SAP2000 has not come in decks for OpenSees, and in no tables.
 #[test]
 fn springs_for_another_integrator_are_in_decks_that_have_it() {
-    let frame = "[structure]\nkind = \"aframe\"\nheight_m = 61.0\nwidth_m = 12.2\n\
-        mass_kg = 680.1e3\n[program]\nintegrator = \"trbdf2\"\n";
-    let run = run(1.0, Some(frame));
+    let run = run(1.0, Some(&format!("{FRAME}[program]\nintegrator = \"trbdf2\"\n")));
     let texts = texts(&run, Path::new("out")).unwrap();
     let find = |of: &str| texts.files.iter().find(|(file, _)| file == of).map(|(_, text)| text);
     let deck = find("decks/model_even.py").unwrap();
@@ -242,8 +244,7 @@ fn a_step_that_is_too_long_is_not_to_be_used() {
     assert_eq!(told, Some((Weight::Warning, expected.fault, expected.advice)));
     assert!(matches!(expected.advice, ProgramAdvice::Step { step_s } if step_s <= 0.01));
     let said = run.said(filed(&run, Path::new("out")));
-    let written = Written { folder: "out", report: true, decks: true, left_out: &[] };
-    let text = screen(&said, &written);
+    let text = screen_of(&said, "out");
     assert!(!text.contains("_by_hand"), "{text}");
 }
 
@@ -261,7 +262,7 @@ fn digits(word: &str) -> usize {
 /// A screen holds what it must, in its lines, letters and digits.
 fn check_screen(run: &RigidRun, folder: &str) -> String {
     let said = run.said(run.parameters.clone());
-    let text = screen(&said, &Written { folder, report: true, decks: true, left_out: &[] });
+    let text = screen_of(&said, folder);
     assert!(text.lines().count() <= 30, "{text}");
     assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
     for line in text.lines().filter(|line| !line.contains('/') && !line.starts_with("record ")) {
@@ -286,11 +287,10 @@ fn check_screen(run: &RigidRun, folder: &str) -> String {
 #[test]
 fn a_screen_has_thirty_lines_of_a_hundred_letters_whatever_the_run() {
     let long = "a/very/long/way/to/a/folder/whose/name/nobody/can/read/at/once/".repeat(3);
-    let block = "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 1000.0\n";
     for (run, says) in [
         (run(1.0, None), "It rocks and stands"),
         (run(0.1, None), "The record does not lift the structure"),
-        (run(2.5, Some(block)), "The structure overturns at t = 4.4"),
+        (run(2.5, Some(BLOCK)), "The structure overturns at t = 4.4"),
     ] {
         assert!(check_screen(&run, "out").contains(says));
         check_screen(&run, &long);
@@ -312,8 +312,7 @@ fn a_wall_with_a_tendon_is_answered_with_its_tendon() {
     assert!(verdict.starts_with(start), "{verdict}");
     assert!(verdict.contains("uplift takes 0.9867 g; without members, Housner's body rocks"));
     assert!(run.parameters.program.is_none());
-    let written = Written { folder: "out", report: true, decks: true, left_out: &[] };
-    let screen = screen(&said, &written);
+    let screen = screen_of(&said, "out");
     assert!(screen.contains("lifts beyond 0.9867 g, without tendon 0.6667 g"), "{screen}");
     let words = screen.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words.contains("others, which are not made for dampers, tendons"), "{screen}");
@@ -387,8 +386,7 @@ fn a_body_with_friction_is_told_with_friction() {
                  mass_kg = 1000.0\n[friction]\ncoefficient = 0.28\n";
     let run = run_within((4e4, 2e-3), 1.0, Some(block));
     let said = run.said(run.parameters.clone());
-    let written = Written { folder: "out", report: true, decks: true, left_out: &[] };
-    let text = screen(&said, &written);
+    let text = screen_of(&said, "out");
     assert!(text.contains("with friction") && !text.contains("ith its members"), "{text}");
     assert!(!text.contains("with members"), "{text}");
     let words = text.split_whitespace().collect::<Vec<_>>().join(" ");

@@ -9,7 +9,7 @@ use frames::{
     beam::BeamSection,
     frame::{Cantilever, Footing, Frame, StraightMember},
     reference::{FORETOLD, MOST_WORK},
-    structure::PierSpec,
+    structure::{ElasticStructure, PierSpec},
 };
 use rocking::scalar::GRAVITY;
 use springs::elastic::design::CornerSprings;
@@ -70,6 +70,21 @@ pub const PIER: PierSpec = PierSpec {
     column_mass_kg: 0.0,
     elements: None,
 };
+
+/// A structure as users write it.
+pub fn structure(text: &str) -> ElasticStructure {
+    toml::from_str::<ElasticStructure>(text).unwrap().checked().unwrap()
+}
+
+/// A portal of 8 m.
+pub fn portal() -> ElasticStructure {
+    structure(
+        "kind = 'frame'\nheight_m = 8.0\nspan_m = 10.0\nfooting_width_m = 2.5\n\
+         footing_height_m = 1.0\nfooting_mass_kg = 30e3\n\
+         beam_mass_kg = 200e3\ncolumn_ea_n = 3e10\ncolumn_ei_nm2 = 4e9\nbeam_ea_n = 4e10\n\
+         beam_ei_nm2 = 8e9\ndamping_ratio = 0.02\n",
+    )
+}
 
 /// Springs scaled by what lands at each corner: K 0.05, C_u 0.60, mu_u 0.66; horizontally K 1, C 2,
 /// mu 0.3 and `ratio` times the frequency (Hz).

@@ -14,23 +14,10 @@ use nalgebra::DVector;
 use rocking::members::{Damper, Members, Tendon};
 use rocking::scalar::GRAVITY;
 
-use crate::common::{PIER, el_centro, springs};
-
-fn structure(text: &str) -> ElasticStructure {
-    toml::from_str::<ElasticStructure>(text).unwrap().checked().unwrap()
-}
+use crate::common::{PIER, el_centro, portal, springs, structure};
 
 fn pier() -> ElasticStructure {
     ElasticStructure::Pier(PIER).checked().unwrap()
-}
-
-fn portal() -> ElasticStructure {
-    structure(
-        "kind = 'frame'\nheight_m = 8.0\nspan_m = 10.0\nfooting_width_m = 2.5\n\
-         footing_height_m = 1.0\nfooting_mass_kg = 30e3\n\
-         beam_mass_kg = 200e3\ncolumn_ea_n = 3e10\ncolumn_ei_nm2 = 4e9\nbeam_ea_n = 4e10\n\
-         beam_ei_nm2 = 8e9\ndamping_ratio = 0.02\n",
-    )
 }
 
 fn legs() -> ElasticStructure {

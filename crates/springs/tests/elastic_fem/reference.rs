@@ -31,7 +31,7 @@ use springs::elastic::{
 use strong_motion::Record;
 
 use crate::common::{
-    MODERATE, Numbers, PIER, answer, el_centro, nrmse, on_rigid_ground, pier, springs,
+    MODERATE, Numbers, PIER, answer, el_centro, nrmse, on_rigid_ground, pier, portal, springs,
 };
 
 fn tuned_for(
@@ -318,14 +318,7 @@ fn a_corner_that_lands_flat_slides_on_springs_as_on_rigid_ground() {
 /// springs once never got past one.
 #[test]
 fn histories_on_stiff_springs_get_to_their_end() {
-    let structure: ElasticStructure = toml::from_str(
-        "kind = 'frame'\nheight_m = 8.0\nspan_m = 10.0\nfooting_width_m = 2.5\n\
-         footing_height_m = 1.0\nfooting_mass_kg = 30e3\n\
-         beam_mass_kg = 200e3\ncolumn_ea_n = 3e10\ncolumn_ei_nm2 = 4e9\nbeam_ea_n = 4e10\n\
-         beam_ei_nm2 = 8e9\ndamping_ratio = 0.02\n",
-    )
-    .unwrap();
-    let model = Assembled::new(structure).unwrap();
+    let model = Assembled::new(portal()).unwrap();
     let standing = stand(&model).unwrap();
     let suite = ElasticSuite::new(model, None, &Effort::unbounded());
     for k in [0.0061, 0.0083] {
