@@ -82,10 +82,7 @@ impl UnitDesign {
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Quadruple)> {
         let d = &self.0;
-        Ok((
-            py.import("groundspring._restore")?.getattr("unit_design")?,
-            (d.mu, d.f, d.xi, d.omega_n_hz),
-        ))
+        Ok((crate::restore(py, "unit_design")?, (d.mu, d.f, d.xi, d.omega_n_hz)))
     }
 
     fn __repr__(&self) -> String {
@@ -182,10 +179,7 @@ impl Design {
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (f64, f64, f64))> {
         let g = &self.geometry;
-        Ok((
-            py.import("groundspring._restore")?.getattr("design")?,
-            (g.alpha(), g.mass_share(), g.stiffness()),
-        ))
+        Ok((crate::restore(py, "design")?, (g.alpha(), g.mass_share(), g.stiffness())))
     }
 
     fn __repr__(&self) -> String {

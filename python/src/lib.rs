@@ -66,6 +66,21 @@ mod _native {
 /// What the crate's numbers are called with in Python.
 pub(crate) type Array<'py> = Bound<'py, numpy::PyArray1<f64>>;
 
+/// What a function of the package's own Python answers.
+pub(crate) fn call<'py>(
+    py: Python<'py>,
+    module: &str,
+    function: &str,
+    of: impl pyo3::call::PyCallArgs<'py>,
+) -> PyResult<Bound<'py, PyAny>> {
+    py.import(format!("groundspring.{module}"))?.call_method1(function, of)
+}
+
+/// What makes an object again that was pickled.
+pub(crate) fn restore<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+    py.import("groundspring._restore")?.getattr(name)
+}
+
 /// A view of numbers that live in `owner`, which must be frozen and own them; not to be written to.
 pub(crate) fn view<'py>(owner: Bound<'py, PyAny>, numbers: &[f64]) -> PyResult<Array<'py>> {
     // SAFETY: `owner` is kept alive by the array, is frozen, and so neither moves nor changes the

@@ -202,12 +202,12 @@ impl RockingTable {
 
     /// The table as it is, units as in `rocking`.
     fn to_pandas<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("groundspring._tables")?.call_method1("rocking", (slf,))
+        crate::call(slf.py(), "_tables", "rocking", (slf,))
     }
 
     /// The same for polars, without a copy.
     fn to_polars<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("groundspring._tables")?.call_method1("polars", (slf,))
+        crate::call(slf.py(), "_tables", "polars", (slf,))
     }
 
     fn __repr__(&self) -> String {
@@ -221,14 +221,14 @@ impl RockingTable {
 
     /// For notebooks.
     fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("groundspring._html")?.call_method1("rocking", (slf,))
+        crate::call(slf.py(), "_html", "rocking", (slf,))
     }
 
     fn __reduce__<'py>(
         slf: &Bound<'py, Self>,
     ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyAny>,))> {
         let columns = slf.call_method0("_columns")?;
-        Ok((slf.py().import("groundspring._restore")?.getattr("table")?, (columns,)))
+        Ok((crate::restore(slf.py(), "table")?, (columns,)))
     }
 
     /// Names and columns.

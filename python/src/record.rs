@@ -160,7 +160,7 @@ impl Record {
         slf: &Bound<'py, Self>,
         axes: Option<Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("groundspring._plots")?.call_method1("record", (slf, axes))
+        crate::call(slf.py(), "_plots", "record", (slf, axes))
     }
 
     fn __len__(&self) -> usize {
@@ -185,15 +185,12 @@ impl Record {
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         let (py, of) = (slf.py(), slf.get());
         let args = (of.0.dt, Self::accel(slf)?, of.0.name.clone(), of.vertical());
-        Ok((
-            py.import("groundspring._restore")?.getattr("record")?,
-            args.into_pyobject(py)?.into_any(),
-        ))
+        Ok((crate::restore(py, "record")?, args.into_pyobject(py)?.into_any()))
     }
 
     /// For notebooks.
     fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("groundspring._html")?.call_method1("record", (slf,))
+        crate::call(slf.py(), "_html", "record", (slf,))
     }
 
     fn __repr__(&self) -> String {

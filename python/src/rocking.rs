@@ -175,7 +175,7 @@ impl History {
 
     /// u and v, m, theta, rad, rate, rad/s, over time, s.
     fn to_pandas<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("groundspring._tables")?.call_method1("motion", (slf,))
+        crate::call(slf.py(), "_tables", "motion", (slf,))
     }
 
     /// Rotation, mrad, over time, s, with the impacts.
@@ -184,12 +184,12 @@ impl History {
         slf: &Bound<'py, Self>,
         axes: Option<Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("groundspring._plots")?.call_method1("history", (slf, axes))
+        crate::call(slf.py(), "_plots", "history", (slf, axes))
     }
 
     /// For notebooks.
     fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("groundspring._html")?.call_method1("history", (slf,))
+        crate::call(slf.py(), "_html", "history", (slf,))
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
@@ -212,7 +212,7 @@ impl History {
         let (body, _, events, outcome, time) = slf.get().one().numbers();
         let (theta, rate) = (Self::theta(slf)?.into_any(), Self::rate(slf)?.into_any());
         let filed = (body, theta, rate, events, outcome.to_owned(), time);
-        Ok((slf.py().import("groundspring._restore")?.getattr("history")?, (filed,)))
+        Ok((crate::restore(slf.py(), "history")?, (filed,)))
     }
 }
 
@@ -252,12 +252,12 @@ impl Histories {
     /// A row a history: outcome, largest |theta|/alpha, impacts, when it overturned, s,
     /// samples.
     fn to_pandas<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("groundspring._tables")?.call_method1("histories", (slf,))
+        crate::call(slf.py(), "_tables", "histories", (slf,))
     }
 
     /// For notebooks.
     fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("groundspring._html")?.call_method1("histories", (slf,))
+        crate::call(slf.py(), "_html", "histories", (slf,))
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
@@ -283,7 +283,7 @@ impl Histories {
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Vec<History>,))> {
         let all = &slf.get().0;
         let each = (0..all.len()).map(|index| History { all: all.clone(), index });
-        Ok((slf.py().import("groundspring._restore")?.getattr("histories")?, (each.collect(),)))
+        Ok((crate::restore(slf.py(), "histories")?, (each.collect(),)))
     }
 
     fn __repr__(&self) -> String {

@@ -226,7 +226,7 @@ impl Simulation {
 
     /// Both models' motions, m and rad, forces, N, moments, N m, and energies, J, over time, s.
     fn to_pandas<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("groundspring._tables")?.call_method1("simulation", (slf,))
+        crate::call(slf.py(), "_tables", "simulation", (slf,))
     }
 
     /// Horizontal displacement, mm, of both models over time, s.
@@ -235,12 +235,12 @@ impl Simulation {
         slf: &Bound<'py, Self>,
         axes: Option<Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("groundspring._plots")?.call_method1("histories", (slf, axes))
+        crate::call(slf.py(), "_plots", "histories", (slf, axes))
     }
 
     /// For notebooks.
     fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("groundspring._html")?.call_method1("simulation", (slf,))
+        crate::call(slf.py(), "_html", "simulation", (slf,))
     }
 
     /// What it was computed from: computed again when it is unpickled.
@@ -253,7 +253,7 @@ impl Simulation {
             Source::Tuned(_) => "tuned_histories",
         };
         let inputs = self.inputs.as_ref().map(|inputs| inputs.clone_ref(py));
-        Ok((py.import("groundspring._restore")?.getattr(name)?, inputs))
+        Ok((crate::restore(py, name)?, inputs))
     }
 
     fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {

@@ -168,12 +168,12 @@ impl Springs {
         slf: &Bound<'py, Self>,
         axes: Option<Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("groundspring._plots")?.call_method1("springs", (slf, axes))
+        crate::call(slf.py(), "_plots", "springs", (slf, axes))
     }
 
     /// For notebooks.
     fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("groundspring._html")?.call_method1("springs", (slf,))
+        crate::call(slf.py(), "_html", "springs", (slf,))
     }
 
     fn __hash__(&self) -> u64 {
@@ -265,5 +265,5 @@ pub fn _units_for(
         let spring::Springs { vertical, horizontal } = *units;
         Springs { mass, vertical: Chain(vertical), horizontal: Chain(horizontal) }
     });
-    Ok((found.k, found.give, units.collect()))
+    Ok((found.k, found.compliance_ratio, units.collect()))
 }

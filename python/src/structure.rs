@@ -132,10 +132,7 @@ impl Structure {
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         let args = (self.kind(), self.height(), self.width(), self.mass(), self.inertia(), self.e);
-        Ok((
-            py.import("groundspring._restore")?.getattr("structure")?,
-            args.into_pyobject(py)?.into_any(),
-        ))
+        Ok((crate::restore(py, "structure")?, args.into_pyobject(py)?.into_any()))
     }
 
     fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {

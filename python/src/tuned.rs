@@ -111,12 +111,12 @@ impl Tuned {
 
     /// For notebooks.
     fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("groundspring._html")?.call_method1("tuned", (slf,))
+        crate::call(slf.py(), "_html", "tuned", (slf,))
     }
 
     /// What it was computed from: computed again when it is unpickled.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Py<PyTuple>)> {
-        Ok((py.import("groundspring._restore")?.getattr("tuned")?, self.inputs.clone_ref(py)))
+        Ok((crate::restore(py, "tuned")?, self.inputs.clone_ref(py)))
     }
 
     fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {

@@ -37,17 +37,17 @@ impl Validation {
     /// A row a record; names end in their units.
     fn to_pandas<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let rows = plain(py, &self.found.records)?;
-        py.import("groundspring._tables")?.call_method1("rows", (rows,))
+        crate::call(py, "_tables", "rows", (rows,))
     }
 
     /// For notebooks.
     fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("groundspring._html")?.call_method1("validation", (slf,))
+        crate::call(slf.py(), "_html", "validation", (slf,))
     }
 
     /// What it was computed from: computed again when it is unpickled.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Py<PyTuple>)> {
-        Ok((py.import("groundspring._restore")?.getattr("validation")?, self.inputs.clone_ref(py)))
+        Ok((crate::restore(py, "validation")?, self.inputs.clone_ref(py)))
     }
 
     fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
