@@ -23,7 +23,7 @@ const TRIES: usize = 10;
 /// # Errors
 /// It cannot be written; nothing new has the name then.
 pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    replace(path, bytes, false)
+    replace(path, bytes, |_| Ok(()))
 }
 
 /// The same, so that a name that is there has all its bytes even after a crash of the machine.
@@ -31,7 +31,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
 /// # Errors
 /// As [`write()`].
 pub fn write_durably(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    replace(path, bytes, true)?;
+    replace(path, bytes, File::sync_all)?;
     #[cfg(unix)]
     File::open(folder(path)).and_then(|folder| folder.sync_all())?;
     Ok(())
@@ -42,18 +42,24 @@ pub fn folder(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-fn replace(path: &Path, bytes: &[u8], durable: bool) -> io::Result<()> {
+/// What is written gets its name after `ready`.
+fn replace(path: &Path, bytes: &[u8], ready: fn(&File) -> io::Result<()>) -> io::Result<()> {
     let folder = folder(path);
     for _ in 1..TRIES {
-        match once(path, folder, bytes, durable) {
+        match once(path, folder, bytes, ready) {
             Err(e) if e.kind() == ErrorKind::NotFound && folder.is_dir() => {}
             written => return written,
         }
     }
-    once(path, folder, bytes, durable)
+    once(path, folder, bytes, ready)
 }
 
-fn once(path: &Path, folder: &Path, bytes: &[u8], durable: bool) -> io::Result<()> {
+fn once(
+    path: &Path,
+    folder: &Path,
+    bytes: &[u8],
+    ready: fn(&File) -> io::Result<()>,
+) -> io::Result<()> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(UNFINISHED);
     // a temporary file is private by default; a result is for everyone whom the user's mask admits
@@ -63,9 +69,7 @@ fn once(path: &Path, folder: &Path, bytes: &[u8], durable: bool) -> io::Result<(
     // a file system without locks loses nothing: what is removed too early is written again
     let _ = file.as_file().lock();
     file.write_all(bytes)?;
-    if durable {
-        file.as_file().sync_all()?;
-    }
+    ready(file.as_file())?;
     file.persist(path).map_err(|e| e.error)?;
     Ok(())
 }

@@ -23,7 +23,7 @@ use crate::{integrator::Integrator, rebound::rebound};
 /// shows (example `fixed_step_medians` of the crate `springs`).
 pub const FLOOR: f64 = 13.0;
 /// Median NRMSE over (p/(alpha Omega_e))^2 by the stance.
-pub const STANCE: f64 = 80.0;
+const STANCE: f64 = 80.0;
 /// NRMSE over alpha^3 (v_r/v_n)^2 by the rebound: 14 to 29 on frames and blocks of 0.1 to 0.45 rad
 /// on the recipe's springs, stepped by 2.5e-4 s (the same example).
 pub const REBOUND: f64 = 20.0;

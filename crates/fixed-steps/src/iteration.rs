@@ -49,6 +49,13 @@ impl Iteration {
     }
 }
 
+/// Which of its iterations: on one matrix, or each on its own.
+#[derive(Clone, Copy, PartialEq)]
+enum IterationPhase {
+    Constant,
+    Newton,
+}
+
 /// Room for the iteration's vectors, used again in every step.
 pub(crate) struct Iterates<M: FixedStepModel> {
     /// From the step's begin (m, rad).
@@ -90,8 +97,8 @@ impl<M: FixedStepModel> Iterates<M> {
         feet: &mut M::Feet,
         ground: [f64; 2],
     ) -> bool {
-        self.phase(model, how, how.constant, false, (from, step), feet, ground)
-            || self.phase(model, how, how.newton, true, (from, step), feet, ground)
+        self.phase(model, how, IterationPhase::Constant, (from, step), feet, ground)
+            || self.phase(model, how, IterationPhase::Newton, (from, step), feet, ground)
     }
 
     #[allow(clippy::too_many_arguments)]
@@ -100,12 +107,15 @@ impl<M: FixedStepModel> Iterates<M> {
         &mut self,
         model: &M,
         how: &Iteration,
-        most: usize,
-        newton: bool,
+        phase: IterationPhase,
         (from, step): (&Kinematics<M::Vector>, &StepKinematics<M::Vector>),
         feet: &mut M::Feet,
         ground: [f64; 2],
     ) -> bool {
+        let most = match phase {
+            IterationPhase::Constant => how.constant,
+            IterationPhase::Newton => how.newton,
+        };
         if most == 0 {
             return false;
         }
@@ -114,7 +124,7 @@ impl<M: FixedStepModel> Iterates<M> {
         self.look(model, from, step, feet, ground, true);
         let mut factor = None;
         for _ in 0..most {
-            if newton || factor.is_none() {
+            if phase == IterationPhase::Newton || factor.is_none() {
                 factor = model.factor((&self.trial, &self.places), feet, &weights);
             }
             let Some(factor) = &factor else { return false };

@@ -89,7 +89,7 @@ const AT_TOUCHES: f64 = 0.5;
 
 /// I_cg/(m R^2) of a body that has none, where the integrator leaves something of stiff modes: with
 /// less, its rotation is a mode of several kHz that HHT neither resolves nor ends.
-pub const INERTIA_FOR_RINGING: f64 = 1e-3;
+const INERTIA_FOR_RINGING: f64 = 1e-3;
 /// The same for integrators that end stiff modes within a few steps: that of our decks.
 pub const LEAST_INERTIA: f64 = rocking::structure::LEAST_INERTIA;
 
