@@ -16,7 +16,7 @@ use rocking::{
 use strong_motion::Record;
 
 /// The tolerance of the history that errors are told against; the next tighter one confirms it.
-pub const TIGHT: f64 = 1e-12;
+const TIGHT: f64 = 1e-12;
 /// Tolerances of the ladder.
 pub const LADDER: [f64; 8] = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11];
 
@@ -144,7 +144,7 @@ pub struct HistoryCost {
     pub seconds: f64,
     pub steps: usize,
     pub impacts: usize,
-    /// Against [`TIGHT`].
+    /// Against `TIGHT`.
     pub error: f64,
 }
 

@@ -20,6 +20,8 @@ mod members;
 mod pier;
 mod portal;
 
+use std::f64::consts::PI;
+
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -223,6 +225,30 @@ fn shortens(member: &'static str, load: f64, ea: f64) -> Result<(), ElasticError
         return Ok(());
     }
     Err(ElasticError::Shortens { member, share, least: load / MOST_SHORTENING })
+}
+
+/// A column that is free to sway, a cantilever, must carry its load (N) and a tendon's tension (N).
+/// The tendon pulls towards the footing's middle, which takes four times as much of it as of a
+/// weight to buckle.
+fn cantilever_carries(
+    member: &'static str,
+    [ei, ea, length]: [f64; 3],
+    load: f64,
+    tension: f64,
+) -> Result<(), ElasticError> {
+    let critical = PI * PI * ei / (4.0 * length * length);
+    stands(member, load + 0.25 * tension, critical)?;
+    shortens(member, load + tension, ea)
+}
+
+/// There is a column between the footing and the top.
+fn has_column(footing: f64, height: f64) -> Result<(), ElasticError> {
+    if footing < 0.95 * height { Ok(()) } else { Err(ElasticError::NoColumn { footing, height }) }
+}
+
+/// Rotational inertia of a solid block about its centre (kg m2).
+fn block_inertia(mass: f64, width: f64, height: f64) -> f64 {
+    mass * (width.powi(2) + height.powi(2)) / 12.0
 }
 
 /// A column of this critical load (N) must carry this load.

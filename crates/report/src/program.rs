@@ -102,19 +102,15 @@ impl ProgramReport {
                 format!("inertia {value}, not {}", significant(given, 4)),
             )
         });
-        let sensitive = is_sensitive(&parameters.findings);
-        let until = predictable_to(&parameters.findings);
-        let told = ErrorsOf { peaks: "top", motions: "synthetic motions", sensitive, until };
+        let told = told(["top", "synthetic motions"], &parameters.findings);
         Some(Self::new(row, units.into(), (inertia, output(row, parameters.record.as_ref())), told))
     }
 
     /// Of an elastic structure's springs.
     pub(crate) fn of_elastic(parameters: &ElasticParameters) -> Option<Self> {
         let row = parameters.program.as_ref()?;
-        let sensitive = is_sensitive(&parameters.findings);
         // this record among them
-        let until = predictable_to(&parameters.findings);
-        let told = ErrorsOf { peaks: "peaks", motions: "motions", sensitive, until };
+        let told = told(["peaks", "motions"], &parameters.findings);
         let output = output(row, parameters.record.as_ref());
         Some(Self::new(row, corner_units(&row.units.springs), (None, output), told))
     }
@@ -216,6 +212,12 @@ impl ProgramReport {
             ..Section::default()
         }
     }
+}
+
+/// What errors are of, and what is known of the record's motion.
+fn told([peaks, motions]: [&'static str; 2], findings: &[FiledFinding]) -> ErrorsOf {
+    let (sensitive, until) = (is_sensitive(findings), predictable_to(findings));
+    ErrorsOf { peaks, motions, sensitive, until }
 }
 
 /// The ground motion, for a screen: direction, factor, file, its columns.

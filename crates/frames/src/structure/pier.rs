@@ -1,12 +1,13 @@
 //! A mass on an elastic column on a rigid footing.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
 use super::{
-    AXIAL, BENDING, ElasticError, FREQUENCY, LENGTH, MASS, SHEAR_SHARE, check_elements, damping,
-    elements, not_negative, positive, shortens, slender, stands,
+    AXIAL, BENDING, ElasticError, FREQUENCY, LENGTH, MASS, SHEAR_SHARE, block_inertia,
+    cantilever_carries, check_elements, damping, elements, has_column, not_negative, positive,
+    slender,
 };
 use rocking::{scalar::GRAVITY, structure::Body};
 
@@ -87,12 +88,7 @@ impl PierSpec {
         if self.ei_nm2.is_some() == self.frequency_hz.is_some() {
             return Err(ElasticError::Bending { both: self.ei_nm2.is_some() });
         }
-        if self.footing_height_m >= 0.95 * self.height_m {
-            return Err(ElasticError::NoColumn {
-                footing: self.footing_height_m,
-                height: self.height_m,
-            });
-        }
+        has_column(self.footing_height_m, self.height_m)?;
         if !(self.ei() > 0.0 && self.ei() <= BENDING.1) {
             return Err(ElasticError::Shear { ga: self.ga() });
         }
@@ -101,12 +97,10 @@ impl PierSpec {
         self.carries(0.0)
     }
 
-    /// Whether the column carries the weight and a tendon's tension (N). The tendon pulls towards
-    /// the footing's middle, which takes four times as much of it as of a weight to buckle.
+    /// Whether the column carries the weight and a tendon's tension (N).
     pub(super) fn carries(&self, tension: f64) -> Result<(), ElasticError> {
-        let critical = PI * PI * self.ei() / (4.0 * self.length() * self.length());
-        stands("the column", self.load() + 0.25 * tension, critical)?;
-        shortens("the column", self.load() + tension, self.ea())
+        let column = [self.ei(), self.ea(), self.length()];
+        cantilever_carries("the column", column, self.load(), tension)
     }
 
     /// Length of the column, from the footing's top to the mass (m).
@@ -116,8 +110,7 @@ impl PierSpec {
 
     /// Rotational inertia of the footing about its centre of mass (kg m2).
     pub fn footing_inertia(&self) -> f64 {
-        let block =
-            self.footing_mass_kg * (self.width_m.powi(2) + self.footing_height_m.powi(2)) / 12.0;
+        let block = block_inertia(self.footing_mass_kg, self.width_m, self.footing_height_m);
         self.footing_inertia_kgm2.unwrap_or(block)
     }
 

@@ -1,12 +1,13 @@
 //! Two columns on two footings under a beam.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
 use super::{
-    AXIAL, BENDING, ElasticError, LENGTH, MASS, SHEAR_SHARE, aframe::together, check_elements,
-    damping, elements, not_negative, positive, shortens, slender, stands,
+    AXIAL, BENDING, ElasticError, LENGTH, MASS, SHEAR_SHARE, aframe::together, block_inertia,
+    cantilever_carries, check_elements, damping, elements, has_column, not_negative, positive,
+    slender,
 };
 use rocking::{scalar::GRAVITY, structure::Body};
 
@@ -67,12 +68,7 @@ impl PortalSpec {
         }
         not_negative("column_mass_kg", self.column_mass_kg, MASS.1)?;
         damping("damping_ratio", self.damping_ratio)?;
-        if self.footing_height_m >= 0.95 * self.height_m {
-            return Err(ElasticError::NoColumn {
-                footing: self.footing_height_m,
-                height: self.height_m,
-            });
-        }
+        has_column(self.footing_height_m, self.height_m)?;
         if self.footing_width_m > self.span_m {
             return Err(ElasticError::Overlap { width: self.footing_width_m, span: self.span_m });
         }
@@ -81,14 +77,11 @@ impl PortalSpec {
         self.carries(0.0)
     }
 
-    /// Whether each column carries its weight and its tendon's tension (N), which pulls towards the
-    /// footing's middle.
+    /// Whether each column carries its weight and its tendon's tension (N).
     pub(super) fn carries(&self, tension: f64) -> Result<(), ElasticError> {
-        // free to sway, as in flight: a cantilever's critical load, on the safe side of the
-        // portal's
-        let critical = PI * PI * self.column_ei_nm2 / (4.0 * self.length() * self.length());
-        stands("a column", self.load() + 0.25 * tension, critical)?;
-        shortens("a column", self.load() + tension, self.column_ea_n)
+        // free to sway, as in flight: on the safe side of the portal's critical load
+        let column = [self.column_ei_nm2, self.column_ea_n, self.length()];
+        cantilever_carries("a column", column, self.load(), tension)
     }
 
     /// Length of a column, from the footing's top to the beam's axis (m).
@@ -98,7 +91,7 @@ impl PortalSpec {
 
     /// Rotational inertia of a footing about its centre of mass (kg m2).
     pub(crate) fn footing_inertia(&self) -> f64 {
-        self.footing_mass_kg * (self.footing_width_m.powi(2) + self.footing_height_m.powi(2)) / 12.0
+        block_inertia(self.footing_mass_kg, self.footing_width_m, self.footing_height_m)
     }
 
     /// GA_s of a column (N): as given; of columns with a mass of their own a share of EA; infinite
