@@ -153,7 +153,7 @@ mod tests {
         spring::{Design, Springs},
     };
     use rocking::{
-        housner::{RockingOptions, history, solve},
+        housner::{history, released, solve},
         structure::Structure,
     };
 
@@ -182,7 +182,7 @@ mod tests {
         let structure = Structure::block(2.0, 0.5, 1e3).unwrap();
         let body = structure.body::<f64>();
         let (dt, accel, theta) = (0.005, vec![0.0; 2000], 0.3 * body.alpha());
-        let options = RockingOptions { initial: Some((theta, 0.0)), ..RockingOptions::default() };
+        let options = released(theta, 0.0);
         let rocking = solve(&body, dt, &accel, &options);
         let design = Design::from_kc(0.3, 0.1, 0.75, 2000.0);
         let springs = Springs { vertical: design, horizontal: design }.chains(body.mass);

@@ -240,6 +240,7 @@ pub fn sensitivity(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::housner::released;
     use crate::scalar::GRAVITY;
     use crate::structure::Structure;
     use strong_motion::Record;
@@ -381,10 +382,7 @@ mod tests {
     #[test]
     fn a_body_near_balance_is_ill_conditioned() {
         let body = Structure::paper().body::<f64>();
-        let options = RockingOptions {
-            initial: Some(((1.0 - 1e-4) * body.alpha(), 0.0)),
-            ..RockingOptions::default()
-        };
+        let options = released((1.0 - 1e-4) * body.alpha(), 0.0);
         let found = Conditioning::new(&body, 0.01, &[0.0; 3000], &options);
         assert!(
             found.sensitivity.worst() > ILL_CONDITIONED && !found.changes.proportionate(),

@@ -164,12 +164,18 @@ pub fn solve(
     solve_with_derivatives(body, dt, accel, options)
 }
 
-/// The same from rest, unscaled, with equation 2's restitution and without vertical motion.
+/// Options of a body that is let go at theta (rad) with its rate (rad/s).
+pub fn released<S: Scalar>(theta: S, rate: S) -> RockingOptions<S> {
+    RockingOptions { initial: Some((theta, rate)), ..RockingOptions::default() }
+}
+
+/// As [`solve`], from rest, unscaled, with equation 2's restitution and without vertical motion.
 pub fn history(body: &Body<f64>, dt: f64, accel: &[f64]) -> Rocking<f64> {
     solve(body, dt, accel, &RockingOptions::default())
 }
 
-/// The same as [`solve`] in dual numbers: the history and its derivatives by what of body and options has some.
+/// As [`solve`] in dual numbers: the history and its derivatives by what of body and options has
+/// some.
 pub fn solve_with_derivatives<S: Scalar>(
     body: &Body<S>,
     dt: f64,
@@ -279,8 +285,7 @@ fn setting<'a, S: Scalar>(
 /// Whether a body left alone on still ground with this theta (rad) and theta' (rad/s) falls: it is
 /// beyond alpha, and what brings it back is too slow to reach alpha.
 pub fn topples(body: &Body<f64>, theta: f64, rate: f64) -> bool {
-    let options = RockingOptions { initial: Some((theta, rate)), ..RockingOptions::default() };
-    solve(body, 1.0, &[0.0], &options).overturned().is_some()
+    solve(body, 1.0, &[0.0], &released(theta, rate)).overturned().is_some()
 }
 
 impl<S> Rocking<S> {

@@ -3,12 +3,7 @@
 //! it.
 
 use dynamics::fem::{Analysis, Control, History, HistoryOutcome, Start};
-use rocking::{
-    housner::{self, RockingOptions},
-    motion::nrmse,
-    scalar::GRAVITY,
-    structure::Structure,
-};
+use rocking::{housner, motion::nrmse, scalar::GRAVITY, structure::Structure};
 use strong_motion::{Record, Source};
 
 use crate::common::{assert_sound, free, paper, plastic, settled, table_1};
@@ -175,7 +170,7 @@ fn ever_smaller_impacts_end_in_rest_and_all_energy_is_accounted_for() {
     let lean = 0.3 * body.alpha();
     let history = free(&structure, springs, lean, 0.01, 1501);
     assert_sound(&history, 1501);
-    let options = RockingOptions { initial: Some((lean, 0.0)), ..RockingOptions::default() };
+    let options = housner::released(lean, 0.0);
     let rigid = housner::solve(&body, 0.01, &[0.0; 1501], &options);
     let rest = rigid.theta.iter().position(|theta| *theta == 0.0).unwrap();
     assert!(rigid.theta[rest..].iter().all(|theta| *theta == 0.0));

@@ -8,7 +8,7 @@ use dynamics::{
     spring::{Chain, Design, Springs},
 };
 use rocking::{
-    housner::{self, RockingOptions},
+    housner,
     motion::{largest_magnitude, nrmse},
     structure::{Body, Structure},
 };
@@ -23,7 +23,7 @@ fn a_frame_of_restitution_zero_loses_its_energy_in_the_first_landing() {
     let body = Body { mass: 1e4, half_width: 5.0, height: 5.0, inertia: 0.0 };
     assert!(body.restitution().abs() < 1e-15 && (body.alpha() - FRAC_PI_4).abs() < 1e-15);
     let (lean, accel) = (0.1, vec![0.0; 300]);
-    let options = RockingOptions { initial: Some((lean, 0.0)), ..RockingOptions::default() };
+    let options = housner::released(lean, 0.0);
     let rigid = housner::solve(&body, 0.01, &accel, &options);
     let landing = rigid.impacts[0].time;
     assert!(rigid.theta[(landing / 0.01) as usize + 1..].iter().all(|theta| theta.abs() < 1e-12));

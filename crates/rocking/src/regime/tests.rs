@@ -1,5 +1,5 @@
 use super::*;
-use crate::housner::{RockingOptions, RockingOutcome, history, solve};
+use crate::housner::{RockingOptions, RockingOutcome, history, released, solve};
 use crate::structure::Structure;
 use strong_motion::Record;
 
@@ -128,7 +128,7 @@ fn a_fast_body_leaves_the_ground_where_the_centripetal_force_exceeds_the_weight(
     let theta = body.alpha();
     let limit = (GRAVITY / body.radius()).sqrt();
     for (rate, flies) in [(0.999 * limit, false), (1.001 * limit, true)] {
-        let options = RockingOptions { initial: Some((theta, rate)), ..RockingOptions::default() };
+        let options = released(theta, rate);
         let rocking = solve(&body, 0.01, &[0.0], &options);
         let regime = check(&body, 0.01, (&[0.0], &[]), 1.0, &rocking, 0.5);
         assert_eq!(regime.free_flight.is_some(), flies);

@@ -1,7 +1,7 @@
 //! Derivatives through uplifts and impacts against finite differences of the f64 run.
 
 use num_dual::{Dual64, DualNum};
-use rocking::housner::{RockingOptions, solve, solve_with_derivatives};
+use rocking::housner::{RockingOptions, released, solve, solve_with_derivatives};
 use rocking::structure::{Body, Structure};
 use strong_motion::Record;
 
@@ -107,7 +107,7 @@ fn a_quarter_period_differentiates_as_its_closed_form() {
     };
     let phi = 0.4_f64;
     let theta = Dual64::new(phi, 1.0) * body.alpha().re;
-    let options = RockingOptions { initial: Some((theta, lift(0.0))), ..RockingOptions::default() };
+    let options = released(theta, lift(0.0));
     let rocking = solve_with_derivatives(&body, 0.01, &[0.0; 300], &options);
     let p = body.p_squared().re.sqrt();
     let expected = 1.0 / (p * (1.0 - phi) * (1.0 - (1.0 - phi).powi(2)).sqrt());

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use rocking::housner::{RockingOptions, RockingOutcome, history, solve};
+use rocking::housner::{RockingOptions, RockingOutcome, history, released, solve};
 use rocking::structure::{Body, Structure};
 
 /// tan(alpha) = 0.25 exactly.
@@ -69,10 +69,7 @@ fn uplift_inside_a_sample_starts_with_no_acceleration() {
 #[test]
 fn an_impact_at_a_sample_is_one_impact() {
     let body = block();
-    let start = |phi: f64| RockingOptions {
-        initial: Some((phi * body.alpha(), 0.0)),
-        ..RockingOptions::default()
-    };
+    let start = |phi: f64| released(phi * body.alpha(), 0.0);
     let quarter = solve(&body, 0.01, &[0.0; 200], &start(0.5)).impacts[0].time;
     for nudge in [-1e-15, -1e-16, 0.0, 1e-16, 1e-15] {
         let rocking = solve(&body, (quarter + nudge) / 40.0, &[0.0; 100], &start(0.5));
@@ -110,7 +107,7 @@ fn ever_smaller_impacts_end_in_rest_when_the_closed_form_says() {
     let d = body.p_squared() * body.alpha().sin();
     let theta = 1e-5_f64;
     let end = (2.0 * theta / d).sqrt() * (1.0 + 2.0 * e / (1.0 - e));
-    let options = RockingOptions { initial: Some((theta, 0.0)), ..RockingOptions::default() };
+    let options = released(theta, 0.0);
     let dt = end / 100.0;
     let rocking = solve(&body, dt, &[0.0; 200], &options);
     assert!(rocking.theta[..98].iter().any(|theta| *theta != 0.0));
@@ -161,16 +158,14 @@ fn restitution_one_keeps_its_energy_over_hundreds_of_impacts() {
 fn near_alpha_the_body_stays_long_and_then_decides() {
     let body = block();
     let alpha = body.alpha();
-    let below =
-        RockingOptions { initial: Some((alpha * (1.0 - 1e-9), 0.0)), ..RockingOptions::default() };
+    let below = released(alpha * (1.0 - 1e-9), 0.0);
     let back = solve(&body, 0.01, &[0.0; 3000], &below);
     assert!(!back.impacts.is_empty());
     assert!(matches!(back.outcome, RockingOutcome::Rocked));
     // 1e-9 alpha cosh(p t) = alpha
     let p = body.p();
     assert!((back.impacts[0].time * p / 2e9_f64.ln() - 1.0).abs() < 0.01);
-    let beyond =
-        RockingOptions { initial: Some((-alpha * (1.0 + 1e-9), 0.0)), ..RockingOptions::default() };
+    let beyond = released(-alpha * (1.0 + 1e-9), 0.0);
     let fall = solve(&body, 0.01, &[0.0; 3000], &beyond);
     assert_eq!(fall.outcome, RockingOutcome::Overturned { time: 0.0 });
     assert!(fall.theta.len() < 3000 && fall.theta.iter().all(|theta| theta.abs() < FRAC_PI_2));
@@ -183,7 +178,7 @@ fn overturning_follows_the_energy_barrier() {
     let body = block();
     let barrier = (2.0 * body.p_squared() * (1.0 - body.alpha().cos())).sqrt();
     let run = |rate: f64| {
-        let options = RockingOptions { initial: Some((0.0, rate)), ..RockingOptions::default() };
+        let options = released(0.0, rate);
         solve(&body, 0.01, &[0.0; 3000], &options)
     };
     assert_eq!(run(barrier * (1.0 - 1e-6)).outcome, RockingOutcome::Rocked);
@@ -210,10 +205,7 @@ fn a_touch_down_at_zero_velocity_is_followed_by_the_same_uplift() {
     let body = block();
     for push in [2.0 * LIMIT, -2.0 * LIMIT] {
         let up = history(&body, 0.01, &[push; 51]);
-        let back = RockingOptions {
-            initial: Some((up.theta[50], -up.rate[50])),
-            ..RockingOptions::default()
-        };
+        let back = released(up.theta[50], -up.rate[50]);
         let there_and_back = solve(&body, 0.01, &[push; 101], &back);
         assert_eq!(there_and_back.outcome, RockingOutcome::Rocked);
         for k in 0..=50 {
@@ -234,7 +226,7 @@ fn a_touch_down_at_zero_velocity_is_followed_by_the_same_uplift() {
 #[test]
 fn a_start_at_the_ground_without_a_rate_moves_only_if_pushed() {
     let body = block();
-    let options = RockingOptions { initial: Some((1e-300, 0.0)), ..RockingOptions::default() };
+    let options = released(1e-300, 0.0);
     for accel in [[0.0; 50], [-1.2 * LIMIT; 50], [1.2 * LIMIT; 50]] {
         let rocking = solve(&body, 0.01, &accel, &options);
         assert_eq!(rocking.theta.len(), 50);

@@ -1,6 +1,6 @@
 //! Free rocking against Housner's closed forms (small angles) and the exact energy integral.
 
-use rocking::housner::{RockingOptions, solve};
+use rocking::housner::{RockingOptions, released, solve};
 use rocking::structure::{Body, Structure};
 
 /// An A-frame so slender that the small-angle forms hold to its alpha^2.
@@ -99,8 +99,7 @@ fn the_block_of_the_theory_has_p_1_70980_and_a_period_of_3_08096_s() {
 fn energy_is_constant_between_impacts_and_falls_by_r_at_each() {
     let body = Structure::block(2.0, 0.5, 100.0).unwrap().body::<f64>();
     let (alpha, p2, e) = (body.alpha(), body.p_squared(), body.restitution());
-    let options =
-        RockingOptions { initial: Some((-0.9 * alpha, 0.0)), ..RockingOptions::default() };
+    let options = released(-0.9 * alpha, 0.0);
     let (dt, n) = (0.02, 800);
     let rocking = solve(&body, dt, &vec![0.0; n], &options);
     let mut level = p2 * ((0.1 * alpha).cos() - alpha.cos());
