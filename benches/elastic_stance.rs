@@ -17,7 +17,7 @@ use springs::elastic::{
 /// Factors on the scale, and values of the turn.
 const FACTORS: [f64; 5] = [0.1, 0.3, 1.0, 3.0, 10.0];
 const TURNS: [f64; 4] = [0.0, 0.02, 0.05, 0.15];
-const GIVES: [f64; 4] = [1e-3, 1e-4, 1e-5, 1e-6];
+const COMPLIANCE_RATIOS: [f64; 4] = [1e-3, 1e-4, 1e-5, 1e-6];
 
 /// Mass and footing mass (kg), frequency (Hz) and damping ratio of the piers: 12 m, 4 m wide.
 const PIERS: [(f64, f64, f64, f64); 5] = [
@@ -33,8 +33,8 @@ const FRAME: &str = "kind = 'frame'\nheight_m = 8.0\nspan_m = 10.0\nfooting_widt
                      beam_ei_nm2 = 8e9\ndamping_ratio = 0.02\n";
 
 /// The error over what an accuracy of 1 allows at one K, and touches a landing.
-fn measure(suite: &ElasticSuite, standing: &Standing, give: f64, k: f64) -> (f64, f64) {
-    let measured = suite.measure(&with_k(standing, give, k), Control::search());
+fn measure(suite: &ElasticSuite, standing: &Standing, compliance_ratio: f64, k: f64) -> (f64, f64) {
+    let measured = suite.measure(&with_k(standing, compliance_ratio, k), Control::search());
     let touches = [measured.releases, measured.motions].into_iter().flatten().map(|e| e.touches);
     (
         measured.over(Asked { by: Yardstick::Histories, error: 1.0 }).unwrap_or(f64::NAN),
@@ -59,19 +59,20 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let model = Assembled::new(structure)?;
         let standing = stand(&model).ok_or("does not stand")?;
         let suite = ElasticSuite::new(model, None, &Effort::unbounded());
-        for give in GIVES {
+        for compliance_ratio in COMPLIANCE_RATIOS {
             rows += 1.0;
             for (sums, turn) in logarithms.iter_mut().zip(TURNS) {
                 let mut cells = Vec::new();
                 for (sum, factor) in sums.iter_mut().zip(FACTORS) {
                     let balance = KBalance { scale: factor * BALANCE.scale, turn };
-                    let k = balance.k(&standing, give, landing_speed(&structure));
-                    let (error, touches) = measure(&suite, &standing, give, k);
+                    let k = balance.k(&standing, compliance_ratio, landing_speed(&structure));
+                    let (error, touches) = measure(&suite, &standing, compliance_ratio, k);
                     *sum += f64::ln(error);
                     cells.push(format!("K {k:.4}: {error:.1e} ({touches:.1})"));
                 }
                 println!(
-                    "  give {give:.0e}, turn {turn}; error (touches a landing): {}",
+                    "  compliance ratio {compliance_ratio:.0e}, turn {turn}; error (touches a \
+                     landing): {}",
                     cells.join(", ")
                 );
             }

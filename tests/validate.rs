@@ -133,7 +133,8 @@ fn files_that_are_all_unreadable_end_the_job_before_it_begins() {
     let dir = folder();
     fs::remove_dir_all(dir.path("records")).unwrap();
     dir.write("zz.txt", "0.1\n0.2\nx\n");
-    let stderr = validate(&dir, "zz.txt --dt 0.01 --units g").refusal();
+    let Ended { code, stderr, .. } = validate(&dir, "zz.txt --dt 0.01 --units g");
+    assert_eq!(code, Some(2), "{stderr}");
     assert!(stderr.contains("no file could be read, of 1; the first: zz.txt, line 3"), "{stderr}");
     assert!(!dir.has("out"));
 }

@@ -195,22 +195,34 @@ macro_rules! agree {
 }
 
 agree! {
-    the_paper_frame_on_table_1_springs_agrees: agrees(&programs(), Structure::paper(), Springs::table_1());
-    the_paper_frame_on_its_springs_of_40_hz_agrees: tuned_agrees(Structure::paper(), Objective::Landing, 40.0);
-    the_paper_frame_on_its_springs_of_160_hz_agrees: tuned_agrees(Structure::paper(), Objective::Landing, 160.0);
-    the_paper_frame_on_springs_of_40_hz_by_the_papers_procedure_agrees: tuned_agrees(Structure::paper(), Objective::Arr, 40.0);
-    the_paper_frame_on_springs_of_160_hz_by_the_papers_procedure_agrees: tuned_agrees(Structure::paper(), Objective::Arr, 160.0);
+    the_paper_frame_on_table_1_springs_agrees:
+        agrees(&programs(), Structure::paper(), Springs::table_1());
+    the_paper_frame_on_its_springs_of_40_hz_agrees:
+        tuned_agrees(Structure::paper(), Objective::Landing, 40.0);
+    the_paper_frame_on_its_springs_of_160_hz_agrees:
+        tuned_agrees(Structure::paper(), Objective::Landing, 160.0);
+    the_paper_frame_on_springs_of_40_hz_by_the_papers_procedure_agrees:
+        tuned_agrees(Structure::paper(), Objective::Arr, 40.0);
+    the_paper_frame_on_springs_of_160_hz_by_the_papers_procedure_agrees:
+        tuned_agrees(Structure::paper(), Objective::Arr, 160.0);
     /// On springs this soft for it a lifting foot chatters: its steps are asked for a quarter of the
     /// error, too.
-    a_frame_of_5_by_1_5_m_on_table_1_springs_agrees: agrees_at(ACCURACY / 4.0, &programs(), frame_of_5_m(), Springs::table_1());
-    a_frame_of_5_by_1_5_m_on_its_springs_of_40_hz_agrees: tuned_agrees(frame_of_5_m(), Objective::Landing, 40.0);
-    a_frame_of_5_by_1_5_m_on_its_springs_of_160_hz_agrees: tuned_agrees(frame_of_5_m(), Objective::Landing, 160.0);
+    a_frame_of_5_by_1_5_m_on_table_1_springs_agrees:
+        agrees_at(ACCURACY / 4.0, &programs(), frame_of_5_m(), Springs::table_1());
+    a_frame_of_5_by_1_5_m_on_its_springs_of_40_hz_agrees:
+        tuned_agrees(frame_of_5_m(), Objective::Landing, 40.0);
+    a_frame_of_5_by_1_5_m_on_its_springs_of_160_hz_agrees:
+        tuned_agrees(frame_of_5_m(), Objective::Landing, 160.0);
     /// It topples at 6.4 s, which multiplies whatever its steps miss before: they are asked for a
     /// quarter of that.
-    a_block_of_2_by_0_5_m_on_table_1_springs_agrees: agrees_at(ACCURACY / 4.0, &programs(), block_of_2_m(), Springs::table_1());
-    a_block_of_2_by_0_5_m_on_its_springs_of_40_hz_agrees: soft_agrees(block_of_2_m(), Objective::Landing, 40.0);
-    a_block_of_2_by_0_5_m_on_its_springs_of_160_hz_agrees: tuned_agrees(block_of_2_m(), Objective::Landing, 160.0);
-    a_block_of_2_by_0_5_m_on_springs_of_the_papers_procedure_agrees: soft_agrees(block_of_2_m(), Objective::Arr, 160.0);
+    a_block_of_2_by_0_5_m_on_table_1_springs_agrees:
+        agrees_at(ACCURACY / 4.0, &programs(), block_of_2_m(), Springs::table_1());
+    a_block_of_2_by_0_5_m_on_its_springs_of_40_hz_agrees:
+        soft_agrees(block_of_2_m(), Objective::Landing, 40.0);
+    a_block_of_2_by_0_5_m_on_its_springs_of_160_hz_agrees:
+        tuned_agrees(block_of_2_m(), Objective::Landing, 160.0);
+    a_block_of_2_by_0_5_m_on_springs_of_the_papers_procedure_agrees:
+        soft_agrees(block_of_2_m(), Objective::Arr, 160.0);
 }
 
 /// Largest NRMSE with dampers or a tendon.

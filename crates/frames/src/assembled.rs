@@ -174,9 +174,9 @@ impl Assembled {
         let options =
             ReferenceOptions { most_work: history.most_work, ..ReferenceOptions::default() };
         let still = DVector::zeros(q.len());
-        let twins =
+        let pair =
             PerturbedPair { coordinates: &self.telling(), perturbation: PERTURBATION, limit };
-        growth(&self.frame, ground, (q, &still), &options, (history, &twins)).samples_below(limit)
+        growth(&self.frame, ground, (q, &still), &options, (history, &pair)).samples_below(limit)
     }
 
     /// The same, and at most up to where a corner slides on from a landing, which not all springs

@@ -4,13 +4,13 @@
 //! ```text
 //!   W = G M^-1 G'                 of a footing's corners: what a unit force at one does to the velocities of all
 //!   K u = M r + G' R,  G u = 0    the structure fixed to the ground under a uniform acceleration r, sideways or upwards: reactions R
-//!   give = sum R_i^2/k_i / u' K u
+//!   compliance_ratio = sum R_i^2/k_i / u' K u
 //!   uplift = least N_i of a corner at rest over |R_i| under 1 m/s2 sideways
 //! ```
 //!
-//! The give is the energy of ground springs k_i over that of the structure, to first order the
-//! share by which they lower the square of the fixed structure's frequency: of a mass on a column
-//! of lateral stiffness k and height h, k h^2/(2 b^2 k_v) + k/(2 k_h).
+//! The compliance ratio is the energy of ground springs k_i over that of the structure, to first
+//! order the share by which they lower the square of the fixed structure's frequency: of a mass on
+//! a column of lateral stiffness k and height h, k h^2/(2 b^2 k_v) + k/(2 k_h).
 
 use nalgebra::{DMatrix, DVector, SVD};
 
@@ -44,7 +44,7 @@ pub struct FixedResponse {
 
 impl FixedResponse {
     /// Give of springs of stiffness `k` = [horizontal, vertical] under every corner (N/m).
-    pub fn give(&self, k: [f64; 2]) -> f64 {
+    pub fn compliance_ratio(&self, k: [f64; 2]) -> f64 {
         self.reactions.iter().map(|[h, n]| h * h / k[0] + n * n / k[1]).sum::<f64>() / self.work
     }
 }

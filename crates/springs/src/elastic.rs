@@ -1,9 +1,9 @@
 //! Springs of elastic structures: from what lands, as stiff as the accuracy asks for.
 //!
 //! ```text
-//!   structure -> finite elements -> standing: W, reactions -> springs at a give of the stance (`design`)
+//!   structure -> finite elements -> standing: W, reactions -> springs at a compliance ratio of the stance (`design`)
 //!                                -> releases, motions, record: the reference, its predictable part (`suite`, `trial`)
-//!   give = 10^(-i/10), the softest rung i that holds with the next above it
+//!   compliance_ratio = 10^(-i/10), the softest rung i that holds with the next above it
 //!                                -> the softest from there on that follow the record to where it grows a change 100,000-fold, if any does
 //! ```
 //!
@@ -48,14 +48,14 @@ use strong_motion::Record;
 pub const MOST_WORK: u64 = 240_000_000;
 /// Share of the accuracy asked for that is aimed at.
 const MARGIN: f64 = 0.7;
-/// Rungs: a give of 0.1 to 1e-8.
+/// Rungs: a compliance ratio of 0.1 to 1e-8.
 const RUNGS: (i64, i64) = (10, 80);
 /// Give over accuracy where the search begins.
 const BEGIN: f64 = 0.1;
 /// Share of the balanced K that is tried where that one does not hold.
 const QUIETER: f64 = 0.3;
 /// Rungs above the softest that hold the accuracy at which the search begins for those that follow
-/// the record further: a tenth of the give.
+/// the record further: a tenth of the compliance ratio.
 const STIFFER: i64 = 10;
 
 /// Springs of an elastic structure and what was measured of them.
@@ -141,7 +141,7 @@ pub fn tune_within(
     checked(asked)?;
     let standing = stand(model).ok_or(ElasticTuneError::Falls)?;
     let landing = landing_speed(&model.structure);
-    let rungs = ladder(asked.error, most_hz, |i| omega_n_hz(&standing, give(i)))?;
+    let rungs = ladder(asked.error, most_hz, |i| omega_n_hz(&standing, compliance_ratio(i)))?;
     let (record, reference) = record.unzip();
     let suite =
         ElasticSuite::new(model.clone(), record.zip(reference.as_ref()), effort).by(asked.by);
@@ -149,7 +149,7 @@ pub fn tune_within(
     let whole = record.map(GroundAcceleration::of);
     let program =
         ElasticProgramSprings::measured(&suite, whole, program, &model.structure.body(), effort);
-    let of = |i: i64, share: f64| springs(&standing, give(i), landing, share);
+    let of = |i: i64, share: f64| springs(&standing, compliance_ratio(i), landing, share);
     let measure =
         |springs: &CornerSprings| suite.measure_within(springs, (Control::search(), effort));
     let chosen = search(rungs, asked, of, &measure, effort, progress);
@@ -244,7 +244,7 @@ fn ladder(
     if let Some(most_hz) = most_hz.filter(|hz| *hz < softest_hz) {
         return Err(ElasticTuneError::TooSoft { most_hz, softest_hz });
     }
-    // Omega_n^2 goes as 1/give
+    // Omega_n^2 goes as 1/compliance_ratio
     let allowed = |hz: f64| softest + (2.0 * DECADE * (hz / softest_hz).log10()).floor() as i64;
     let stiffest = most_hz.map_or(stiffest, |hz| allowed(hz).min(stiffest));
     let guess = (-DECADE * (BEGIN * accuracy).log10()).round() as i64;
@@ -308,7 +308,7 @@ pub fn landing_speed(structure: &ElasticStructure) -> f64 {
 }
 
 /// Give of a rung.
-fn give(i: i64) -> f64 {
+fn compliance_ratio(i: i64) -> f64 {
     10f64.powf(-i as f64 / DECADE)
 }
 

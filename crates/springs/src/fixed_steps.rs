@@ -52,7 +52,7 @@ const LEAST_K: f64 = 0.02;
 /// k_e alpha^2 dt/(m p): the stances that are tried.
 pub const STANCES: [f64; 4] = [12.0, 9.0, 7.0, 4.0];
 /// The same for earthquake-like motions: twice the first's Omega_n.
-pub const STIFFEST: f64 = 48.0;
+const STIFFEST: f64 = 48.0;
 /// Median error that springs may have, over the floor.
 const OVER_FLOOR: f64 = 1.7;
 /// Where a user asks for a program, so many synthetic motions more choose the springs, and others

@@ -79,7 +79,7 @@ pub(crate) struct TimeLoop<'a> {
     /// When each foot last opened (s).
     opened: [f64; 2],
     /// Horizontal force that each foot let go when it last opened, over what it then leant on.
-    let_go: [f64; 2],
+    released_shear: [f64; 2],
     /// What the other foot carried when each foot last opened (N).
     leant_on: [f64; 2],
     /// Step size that the energy account asked for (s).
@@ -131,7 +131,7 @@ impl<'a> TimeLoop<'a> {
             guess: NO_GUESS,
             rate: 1.0,
             opened: [f64::NEG_INFINITY; 2],
-            let_go: [0.0; 2],
+            released_shear: [0.0; 2],
             leant_on: [0.0; 2],
             h: f64::INFINITY,
             balanced: state.q[Z].is_finite() && model.in_balance(&state, &feet),

@@ -1,12 +1,12 @@
 //! How long a history can be told.
 //!
 //! ```text
-//! growth(t) = max over s <= t, coordinates and twins of |q_twin(s) - q(s)| / (peak of |q|, at least 1e-9) / d
+//! growth(t) = max over s <= t, coordinates and perturbed histories of |q_perturbed(s) - q(s)| / (peak of |q|, at least 1e-9) / d
 //! ```
 //!
-//! One twin has the ground's acceleration scaled by 1 + d, in the other every landing leaves 1 - d
-//! of the velocities. A history that two models share to within x can be compared up to where the
-//! growth times x is what the comparison allows; beyond, only statistics can.
+//! One perturbed history has the ground's acceleration scaled by 1 + d, in the other every landing
+//! leaves 1 - d of the velocities. A history that two models share to within x can be compared up
+//! to where the growth times x is what the comparison allows; beyond, only statistics can.
 
 use nalgebra::DVector;
 
@@ -66,7 +66,7 @@ pub struct PerturbedPair<'a> {
     pub coordinates: &'a [usize],
     /// d.
     pub perturbation: f64,
-    /// Growth beyond which a twin is not followed.
+    /// Growth beyond which a perturbed history is not followed.
     pub limit: f64,
 }
 
@@ -76,14 +76,14 @@ pub fn growth(
     ground: GroundAcceleration,
     start: (&DVector<f64>, &DVector<f64>),
     options: &ReferenceOptions,
-    (history, twins): (&ElasticRocking, &PerturbedPair),
+    (history, pair): (&ElasticRocking, &PerturbedPair),
 ) -> Growth {
-    let &PerturbedPair { coordinates, perturbation: d, limit } = twins;
+    let &PerturbedPair { coordinates, perturbation: d, limit } = pair;
     let peaks: Vec<f64> = coordinates
         .iter()
         .map(|&c| history.q.iter().fold(STILL, |peak, q| f64::max(peak, q[c].abs())))
         .collect();
-    let twin = |options: &ReferenceOptions| {
+    let perturbed = |options: &ReferenceOptions| {
         let (mut most, mut factor) = (0.0, Vec::with_capacity(history.q.len()));
         let apart = |q: &DVector<f64>| {
             let Some(other) = history.q.get(factor.len()) else { return false };
@@ -100,8 +100,8 @@ pub fn growth(
         factor
     };
     let (scaled, landed) = parallel::join(
-        || twin(&ReferenceOptions { scale: options.scale * (1.0 + d), ..*options }),
-        || twin(&ReferenceOptions { kept: options.kept * (1.0 - d), ..*options }),
+        || perturbed(&ReferenceOptions { scale: options.scale * (1.0 + d), ..*options }),
+        || perturbed(&ReferenceOptions { kept: options.kept * (1.0 - d), ..*options }),
     );
     Growth {
         dt: ground.dt,

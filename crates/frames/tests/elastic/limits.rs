@@ -194,7 +194,7 @@ fn a_standing_structure_presses_with_its_weight() {
 }
 
 /// A well-behaved history grows little, whatever the size of the perturbation; the growth is that
-/// of the twins.
+/// of the perturbed pair.
 #[test]
 fn growth_is_a_property_of_the_history() {
     let pier = heavy();

@@ -2,9 +2,9 @@
 //! with.
 
 use super::{
-    ElasticTuneError,
+    ElasticTuneError, compliance_ratio,
     design::{CornerSprings, omega_n_hz, springs},
-    give, ladder, landing_speed, stand,
+    ladder, landing_speed, stand,
 };
 use cases::Asked;
 use frames::assembled::Assembled;
@@ -18,6 +18,6 @@ pub fn springs_of_structure(
     asked: Asked,
 ) -> Result<CornerSprings, ElasticTuneError> {
     let standing = stand(model).ok_or(ElasticTuneError::Falls)?;
-    let rungs = ladder(asked.error, None, |i| omega_n_hz(&standing, give(i)))?;
-    Ok(springs(&standing, give(rungs.guess), landing_speed(&model.structure), 1.0))
+    let rungs = ladder(asked.error, None, |i| omega_n_hz(&standing, compliance_ratio(i)))?;
+    Ok(springs(&standing, compliance_ratio(rungs.guess), landing_speed(&model.structure), 1.0))
 }

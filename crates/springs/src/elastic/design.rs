@@ -4,20 +4,21 @@
 //!   m_l      mass of what lands, with W = G M^-1 G' of its two corners as that of a body (`CornerDynamics`): the footing alone under an elastic column
 //!   m_eff    [(W_new)^-1]_zz, under the landing corner
 //!   units    the universal chain on m_eff: m2 = mu_u(K) m_eff, c = C_u(K) sqrt(k1 m_eff), k2 = K k1; horizontals that do not lag, on m_l
-//!   k1       by the give of the stance: the energy of springs k1 over the structure's own, under a uniform acceleration (`Standing`)
+//!   k1       by the compliance ratio of the stance: the energy of springs k1 over the structure's own, under a uniform acceleration (`Standing`)
 //! ```
 //!
-//! The structure's own springs have no part in the landing: they are softer than k1 by the give,
-//! which is small.
+//! The structure's own springs have no part in the landing: they are softer than k1 by the
+//! compliance ratio, which is small.
 //!
 //! **K** trades what a landing leaves against the stance, as for a rigid body. The footing comes
 //! back by v_r, about 0.8 K v, and stays in the air for 2 v_r m_eff/(M g), since the column presses
 //! it down with all of the weight: the sway meanwhile goes on by a phase of order omega K^2 v
 //! m_eff/(M g). Where the column is about to pull it up, it is gone with v_r: an error of order K.
-//! A stance softer by 1/K lowers the sway's frequency by give/(2 K). The least sum of all three has
+//! A stance softer by 1/K lowers the sway's frequency by compliance_ratio/(2 K). The least sum of
+//! all three has
 //!
 //! ```text
-//!   K^2 (K + turn) = scale give M g/(omega v m_eff),     v: speed at which a corner lands that fell from half of what overturns
+//!   K^2 (K + turn) = scale compliance_ratio M g/(omega v m_eff),     v: speed at which a corner lands that fell from half of what overturns
 //! ```
 //!
 //! with two numbers (`BALANCE`) that `cargo bench --bench elastic_stance` finds again, on piers of
@@ -63,7 +64,7 @@ pub struct CornerSprings {
     pub k: f64,
     /// Energy of all springs over the structure's, under its weight's worth sideways and upwards
     /// together.
-    pub give: f64,
+    pub compliance_ratio: f64,
     /// sqrt(k1/M)/(2 pi), M all mass, of the vertical units (Hz).
     pub omega_n_hz: f64,
 }
@@ -78,7 +79,7 @@ impl CornerSprings {
             horizontal.k2 *= times;
             horizontal.c *= times.sqrt();
         }
-        self.give = give_of(standing, &self.corners);
+        self.compliance_ratio = compliance_ratio_of(standing, &self.corners);
         self
     }
 }
@@ -133,22 +134,27 @@ fn outer(w: &DMatrix<f64>, last: usize) -> [[f64; 4]; 4] {
     std::array::from_fn(|i| std::array::from_fn(|j| w[(at(i), at(j))]))
 }
 
-/// Springs of a structure at a give of its vertical k1 alone: the smaller, the stiffer. `landing`:
-/// v of the choice of K (m/s); `share` of that K.
-pub fn springs(standing: &Standing, give: f64, landing: f64, share: f64) -> CornerSprings {
-    with_k(standing, give, share * BALANCE.k(standing, give, landing))
+/// Springs of a structure at a compliance ratio of its vertical k1 alone: the smaller, the stiffer.
+/// `landing`: v of the choice of K (m/s); `share` of that K.
+pub fn springs(
+    standing: &Standing,
+    compliance_ratio: f64,
+    landing: f64,
+    share: f64,
+) -> CornerSprings {
+    with_k(standing, compliance_ratio, share * BALANCE.k(standing, compliance_ratio, landing))
 }
 
 impl KBalance {
-    /// K of a structure at a give of its vertical k1 alone. `landing`: v (m/s).
-    pub fn k(&self, standing: &Standing, give: f64, landing: f64) -> f64 {
+    /// K of a structure at a compliance ratio of its vertical k1 alone. `landing`: v (m/s).
+    pub fn k(&self, standing: &Standing, compliance_ratio: f64, landing: f64) -> f64 {
         let lightest = standing
             .footings
             .iter()
             .map(|f| Lands::new(f).effective_mass())
             .fold(f64::INFINITY, f64::min);
         let share = standing.responses[0].omega * landing * lightest / (standing.mass * GRAVITY);
-        self.solve(self.scale * give / share).clamp(K.0, K.1)
+        self.solve(self.scale * compliance_ratio / share).clamp(K.0, K.1)
     }
 
     /// K of K^2 (K + turn) = x, by Newton's method from above: the left side is convex.
@@ -161,20 +167,21 @@ impl KBalance {
     }
 }
 
-/// k1 of the vertical units at a give of these alone (N/m).
-fn k1(standing: &Standing, give: f64) -> f64 {
-    let unit: f64 = standing.responses.iter().map(|sway| sway.give([f64::INFINITY, 1.0])).sum();
-    unit / give
+/// k1 of the vertical units at a compliance ratio of these alone (N/m).
+fn k1(standing: &Standing, compliance_ratio: f64) -> f64 {
+    let unit: f64 =
+        standing.responses.iter().map(|sway| sway.compliance_ratio([f64::INFINITY, 1.0])).sum();
+    unit / compliance_ratio
 }
 
-/// sqrt(k1/M)/(2 pi) of the springs at a give (Hz).
-pub(crate) fn omega_n_hz(standing: &Standing, give: f64) -> f64 {
-    (k1(standing, give) / standing.mass).sqrt() / TAU
+/// sqrt(k1/M)/(2 pi) of the springs at a compliance ratio (Hz).
+pub(crate) fn omega_n_hz(standing: &Standing, compliance_ratio: f64) -> f64 {
+    (k1(standing, compliance_ratio) / standing.mass).sqrt() / TAU
 }
 
 /// The same at any K.
-pub fn with_k(standing: &Standing, give: f64, k: f64) -> CornerSprings {
-    with_vertical(standing, k1(standing, give), k)
+pub fn with_k(standing: &Standing, compliance_ratio: f64, k: f64) -> CornerSprings {
+    with_vertical(standing, k1(standing, compliance_ratio), k)
 }
 
 /// Springs of this k1 of the vertical units (N/m), at K.
@@ -190,9 +197,9 @@ pub(super) fn with_vertical(standing: &Standing, k1: f64, k: f64) -> CornerSprin
         standing.footings.iter().position(|f| f.corners.contains(&corner)).unwrap_or(0)
     };
     let corners: Vec<_> = (0..count).map(|corner| of_footing[footing(corner)]).collect();
-    let give = give_of(standing, &corners);
+    let compliance_ratio = compliance_ratio_of(standing, &corners);
     let omega_n_hz = (k1 / standing.mass).sqrt() / TAU;
-    CornerSprings { corners, k, give, omega_n_hz }
+    CornerSprings { corners, k, compliance_ratio, omega_n_hz }
 }
 
 /// Whether two footings land alike, to rounding.
@@ -201,7 +208,7 @@ fn alike(a: &FootingInertia, b: &FootingInertia) -> bool {
 }
 
 /// Energy of the springs over that of the structure, over all sways.
-fn give_of(standing: &Standing, corners: &[Springs<Chain>]) -> f64 {
+fn compliance_ratio_of(standing: &Standing, corners: &[Springs<Chain>]) -> f64 {
     standing.responses.iter().map(|sway| total_give(sway, corners)).sum()
 }
 

@@ -5,8 +5,8 @@ fn springs(i: i64, share: f64) -> CornerSprings {
     CornerSprings {
         corners: Vec::new(),
         k: 0.1 * share,
-        give: give(i),
-        omega_n_hz: 2.0 / give(i).sqrt(),
+        compliance_ratio: compliance_ratio(i),
+        omega_n_hz: 2.0 / compliance_ratio(i).sqrt(),
     }
 }
 
@@ -40,7 +40,7 @@ fn springs_softer_than_any_rung_are_refused_and_others_bound_the_search() {
     assert_eq!(ladder(0.002, None, hz).unwrap(), Ladder { ends: RUNGS, guess: 37 });
 }
 
-/// Errors of a tenth of the give, as good as asked at 0.7 times 0.002.
+/// Errors of a tenth of the compliance ratio, as good as asked at 0.7 times 0.002.
 #[test]
 fn the_softest_springs_that_hold_are_taken() {
     let rungs = ladder(0.002, None, hz).unwrap();
@@ -48,12 +48,14 @@ fn the_softest_springs_that_hold_are_taken() {
         rungs,
         Asked::new(0.002, None),
         springs,
-        &|springs| measured(0.1 * springs.give),
+        &|springs| measured(0.1 * springs.compliance_ratio),
         &Effort::unbounded(),
         &|_, _| (),
     );
     assert!(
-        tuned.reached && tuned.springs.give <= 0.014 && tuned.springs.give > 0.011,
+        tuned.reached
+            && tuned.springs.compliance_ratio <= 0.014
+            && tuned.springs.compliance_ratio > 0.011,
         "{tuned:?}"
     );
 }
@@ -61,7 +63,8 @@ fn the_softest_springs_that_hold_are_taken() {
 /// Those at the balance of K leave a landing too fast, whatever their stiffness.
 #[test]
 fn springs_with_less_rebound_are_tried_where_the_balanced_ones_do_not_hold() {
-    let errors = |springs: &CornerSprings| measured(0.1 * springs.give + 0.02 * springs.k);
+    let errors =
+        |springs: &CornerSprings| measured(0.1 * springs.compliance_ratio + 0.02 * springs.k);
     let rungs = ladder(0.002, None, hz).unwrap();
     let tuned =
         search(rungs, Asked::new(0.002, None), springs, &errors, &Effort::unbounded(), &|_, _| ());

@@ -38,27 +38,28 @@ const HEAVY_COLUMN: PierSpec = PierSpec {
 };
 
 /// Over 5 s of El Centro, on springs that settle by this share of the structure's own deformation.
-fn forces(elements: usize, give: f64) -> StructureForces {
+fn forces(elements: usize, compliance_ratio: f64) -> StructureForces {
     let structure = ElasticStructure::Pier(PierSpec { elements: Some(elements), ..HEAVY_COLUMN })
         .checked()
         .unwrap();
     let model = Assembled::new(structure).unwrap();
     let record = Record::new("El Centro", 0.01, el_centro(501)).unwrap();
-    let springs = springs(&stand(&model).unwrap(), give, landing_speed(&structure), 1.0);
+    let springs =
+        springs(&stand(&model).unwrap(), compliance_ratio, landing_speed(&structure), 1.0);
     let reference = on_rigid_ground(&model, &record);
     answer(&model, &springs, &record, reference).design
 }
 
 #[test]
 fn a_pier_s_design_forces_hold_and_stay_with_the_elements_doubled_and_on_softer_springs() {
-    let give = 3e-5;
-    let four = forces(4, give);
+    let compliance_ratio = 3e-5;
+    let four = forces(4, compliance_ratio);
     let cutoff = four.cutoff.as_ref().unwrap();
     assert!(
         cutoff.modes_hz.len() == 3 && cutoff.modes_hz.iter().all(|mode| *mode < cutoff.cutoff_hz)
     );
-    // Omega_n^2 goes as 1/give
-    for other in [forces(8, give), forces(4, 16.0 * give)] {
+    // Omega_n^2 goes as 1/compliance_ratio
+    for other in [forces(8, compliance_ratio), forces(4, 16.0 * compliance_ratio)] {
         for kind in [ForceName::ColumnShear, ForceName::ColumnBaseMoment, ForceName::Axial] {
             let [a, b] = [&four, &other].map(|forces| *forces.get(kind).unwrap());
             assert!(a.holds && b.holds && a.others.change() < MOST_CHANGE, "{a:?} {b:?}");

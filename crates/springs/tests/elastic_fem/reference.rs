@@ -295,8 +295,9 @@ fn a_corner_that_lands_flat_slides_on_springs_as_on_rigid_ground() {
     assert!(first_sliding_landing_s < 3.0, "{first_sliding_landing_s}");
     let of_reference = model.sways(reference.q.iter().map(|q| q.as_slice()));
     let standing = stand(&model).unwrap();
-    let error = |give: f64| {
-        let springs = springs_of_design(&standing, give, landing_speed(&structure), 1.0);
+    let error = |compliance_ratio: f64| {
+        let springs =
+            springs_of_design(&standing, compliance_ratio, landing_speed(&structure), 1.0);
         let start = ElasticStart::Standing;
         let history = ElasticAnalysis::new(&model.frame, &springs.corners, start, 0.01, &accel)
             .simulate()

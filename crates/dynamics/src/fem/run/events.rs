@@ -28,7 +28,7 @@ const AT_ONCE: f64 = 0.1;
 /// other foot's, over a time that is itself a small part of the landing: 20 s of El Centro change
 /// by 4e-9 (frames up to alpha 0.13) and 1e-4 (0.2, springs that bounce) from a share of 1e-4 of
 /// the weight, by 1e-6 and 2e-2 with one of 1e-2.
-const LET_GO: f64 = 1e-3;
+const LEAST_RELEASED_SHEAR: f64 = 1e-3;
 
 /// What such a sliding foot must carry before it holds, over that share.
 const HOLDING: f64 = 0.1;
@@ -112,7 +112,7 @@ impl TimeLoop<'_> {
 
     /// Compression of k1 from which this foot, sliding, holds (m).
     pub(super) fn holding(&self, foot: usize) -> f64 {
-        HOLDING * LET_GO * self.leant_on[foot] / self.model.springs.vertical.k1
+        HOLDING * LEAST_RELEASED_SHEAR * self.leant_on[foot] / self.model.springs.vertical.k1
     }
 
     /// Compression of k1 at which this foot lifts (m), zero or less.
@@ -189,7 +189,7 @@ impl TimeLoop<'_> {
         self.feet[foot] = match was {
             Contact::Open => {
                 let at_once = time - self.opened[foot] < AT_ONCE * self.settling;
-                let held = self.let_go[foot] > LET_GO
+                let held = self.released_shear[foot] > LEAST_RELEASED_SHEAR
                     || self.model.compression(foot, &self.state.q) >= self.holding(foot);
                 // a body on sliding feet alone has nothing to lean on
                 let leans = self.feet[1 - foot].holds();
@@ -213,7 +213,7 @@ impl TimeLoop<'_> {
                 self.opened[foot] = time;
                 let forces = self.model.contact(&self.state.q, &self.feet);
                 self.leant_on[foot] = forces[1 - foot].vertical.max(0.0);
-                self.let_go[foot] = forces[foot].horizontal.abs() / self.leant_on[foot];
+                self.released_shear[foot] = forces[foot].horizontal.abs() / self.leant_on[foot];
                 Foot { contact: Contact::Open, anchor }
             }
         };

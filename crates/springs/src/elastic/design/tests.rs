@@ -48,19 +48,25 @@ fn units_are_those_of_the_footing_alone() {
     }
 }
 
-/// Ten times as stiff, a tenth of the give; and the springs' compliance is more than k1's alone.
+/// Ten times as stiff, a tenth of the compliance ratio; and the springs' compliance is more than
+/// k1's alone.
 #[test]
-fn the_give_asked_for_is_that_of_k1() {
+fn the_compliance_asked_for_is_that_of_k1() {
     let standing = standing();
-    let [soft, stiff] = [1e-3, 1e-4].map(|give| with_k(&standing, give, 0.1));
-    assert_relative_eq!(soft.give / stiff.give, 10.0, max_relative = 1e-9);
+    let [soft, stiff] =
+        [1e-3, 1e-4].map(|compliance_ratio| with_k(&standing, compliance_ratio, 0.1));
+    assert_relative_eq!(soft.compliance_ratio / stiff.compliance_ratio, 10.0, max_relative = 1e-9);
     assert_relative_eq!(
         stiff.corners[0].vertical.k1 / soft.corners[0].vertical.k1,
         10.0,
         max_relative = 1e-9
     );
     // k1 and K k1 in series: 1 + 1/K, and the horizontals
-    assert!(stiff.give > 11e-4 && stiff.give < 12e-4, "{}", stiff.give);
+    assert!(
+        stiff.compliance_ratio > 11e-4 && stiff.compliance_ratio < 12e-4,
+        "{}",
+        stiff.compliance_ratio
+    );
 }
 
 /// A foot without a width: what lands is the foot's own mass, under massless legs.
@@ -95,8 +101,12 @@ fn k_falls_with_the_give_and_with_what_lands() {
     let light = standing();
     let heavy = Pier::new([2e5, 12.0, 2.0], [2.0, 0.02], [6e5, 1.0]).with_axial(4e9, 0.02);
     let heavy = Standing::new(&heavy, &DVector::zeros(5)).unwrap();
-    let k = |standing: &Standing, give: f64| springs(standing, give, 0.6, 1.0).k;
-    let side = |give: f64| k(&light, give).powi(2) * (k(&light, give) + BALANCE.turn);
+    let k = |standing: &Standing, compliance_ratio: f64| {
+        springs(standing, compliance_ratio, 0.6, 1.0).k
+    };
+    let side = |compliance_ratio: f64| {
+        k(&light, compliance_ratio).powi(2) * (k(&light, compliance_ratio) + BALANCE.turn)
+    };
     assert_relative_eq!(side(1e-3) / side(1e-4), 10.0, max_relative = 1e-9);
     assert_relative_eq!(side(1e-4) / side(1e-7), 1e3, max_relative = 1e-9);
     assert!(k(&heavy, 1e-4) < 0.5 * k(&light, 1e-4));
