@@ -205,8 +205,8 @@ agree! {
         tuned_agrees(Structure::paper(), Objective::Arr, 40.0);
     the_paper_frame_on_springs_of_160_hz_by_the_papers_procedure_agrees:
         tuned_agrees(Structure::paper(), Objective::Arr, 160.0);
-    /// On springs this soft for it a lifting foot chatters: its steps are asked for a quarter of the
-    /// error, too.
+    /// On springs this soft for it a lifting foot chatters: its steps are asked for a quarter of
+    /// the error, too.
     a_frame_of_5_by_1_5_m_on_table_1_springs_agrees:
         agrees_at(ACCURACY / 4.0, &programs(), frame_of_5_m(), Springs::table_1());
     a_frame_of_5_by_1_5_m_on_its_springs_of_40_hz_agrees:
