@@ -40,48 +40,31 @@ fn springs_softer_than_any_rung_are_refused_and_others_bound_the_search() {
     assert_eq!(ladder(0.002, None, hz).unwrap(), Ladder { ends: RUNGS, guess: 37 });
 }
 
+/// What a search to 0.002 takes of springs with these errors.
+fn searched(errors: &dyn Fn(&CornerSprings) -> Measured) -> ElasticRung {
+    let (rungs, asked) = (ladder(0.002, None, hz).unwrap(), Asked::new(0.002, None));
+    let tell = |_, _| assert!(!errors(&springs(37, 1.0)).nothing(), "nothing to tell");
+    search(rungs, asked, springs, errors, &Effort::unbounded(), &tell)
+}
+
 /// Errors of a tenth of the compliance ratio, as good as asked at 0.7 times 0.002.
 #[test]
 fn the_softest_springs_that_hold_are_taken() {
-    let rungs = ladder(0.002, None, hz).unwrap();
-    let tuned = search(
-        rungs,
-        Asked::new(0.002, None),
-        springs,
-        &|springs| measured(0.1 * springs.compliance_ratio),
-        &Effort::unbounded(),
-        &|_, _| (),
-    );
-    assert!(
-        tuned.reached
-            && tuned.springs.compliance_ratio <= 0.014
-            && tuned.springs.compliance_ratio > 0.011,
-        "{tuned:?}"
-    );
+    let tuned = searched(&|springs| measured(0.1 * springs.compliance_ratio));
+    let ratio = tuned.springs.compliance_ratio;
+    assert!(tuned.reached && ratio <= 0.014 && ratio > 0.011, "{tuned:?}");
 }
 
 /// Those at the balance of K leave a landing too fast, whatever their stiffness.
 #[test]
 fn springs_with_less_rebound_are_tried_where_the_balanced_ones_do_not_hold() {
-    let errors =
-        |springs: &CornerSprings| measured(0.1 * springs.compliance_ratio + 0.02 * springs.k);
-    let rungs = ladder(0.002, None, hz).unwrap();
-    let tuned =
-        search(rungs, Asked::new(0.002, None), springs, &errors, &Effort::unbounded(), &|_, _| ());
+    let tuned = searched(&|springs| measured(0.1 * springs.compliance_ratio + 0.02 * springs.k));
     assert!(tuned.reached && tuned.springs.k < 0.05, "{tuned:?}");
 }
 
 #[test]
 fn springs_that_nothing_could_be_measured_on_have_not_reached_the_accuracy() {
-    let rungs = ladder(0.002, None, hz).unwrap();
-    let tuned = search(
-        rungs,
-        Asked::new(0.002, None),
-        springs,
-        &|_| Measured::default(),
-        &Effort::unbounded(),
-        &|_, _| panic!("nothing to tell"),
-    );
+    let tuned = searched(&|_| Measured::default());
     assert!(!tuned.reached && tuned.measured.nothing());
     assert_eq!(tuned.springs, springs(37, 1.0));
 }

@@ -6,7 +6,7 @@ use rocking::members::Members;
 
 use super::{body, contacts, dense, largest_residual, models, moved, slopes, springs, state, step};
 use crate::fem::{
-    model::{Model, N, State, Vector},
+    model::{Foot, Model, N, State, Vector},
     newton::Newton,
 };
 
@@ -60,16 +60,21 @@ fn newton_solves_with_the_dense_matrix_for_a_real_eigenvalue() {
     }
 }
 
+/// What Newton's solution leaves of the dense matrix for a complex eigenvalue of a step h (s).
+pub(super) fn complex_residual(model: &Model, feet: &[Foot; 2], h: f64) -> f64 {
+    let right = RIGHT_SIDE.map(|x| Complex::new(x, -0.3 * x + 1e5));
+    let s = Complex::new(0.16 * h, 0.18 * h);
+    let solution = Newton::new(model, &state(), feet, s).solve(&right);
+    largest_residual(&dense(model, feet, s), &solution, &right)
+}
+
 #[test]
 fn newton_solves_with_the_dense_matrix_for_a_complex_eigenvalue() {
-    let right = RIGHT_SIDE.map(|x| Complex::new(x, -0.3 * x + 1e5));
     for (members, model) in models(&[0.0, 0.1]) {
         let most = if members == Members::default() { 1e-11 } else { 1e-9 };
         for feet in contacts() {
             for h in [1e-4, 3e-3, 0.05] {
-                let s = Complex::new(0.16 * h, 0.18 * h);
-                let solution = Newton::new(&model, &state(), &feet, s).solve(&right);
-                let missed = largest_residual(&dense(&model, &feet, s), &solution, &right);
+                let missed = complex_residual(&model, &feet, h);
                 assert!(missed < most, "{members:?} {feet:?} {h}: {missed}");
             }
         }
