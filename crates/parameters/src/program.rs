@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+mod on_record;
+
 use super::{ParametersError, corner::CornerRow};
 use cases::program::ProgramSection;
 use dynamics::spring::{Chain, ChainRow, Springs};
@@ -9,6 +11,7 @@ use fixed_steps::{
     ConvergenceTest, FixedStepProgram, Integrator, Iteration, ProgramName, StepSettings,
     expected::FLOOR, measured::ErrorsOverMotions,
 };
+pub use on_record::ProgramOnRecord;
 use results::{NotToBeUsed, ProgramAdvice, ProgramFault};
 use rocking::{scalar::GRAVITY, structure::Structure};
 use springs::{
@@ -118,49 +121,12 @@ pub struct ProgramRow<U> {
     pub stiffer_for_earthquakes: bool,
     /// What they err.
     pub expected: ProgramExpected,
+    /// Whether no deck has its steps: of a structure with dampers or tendons.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub without_deck: bool,
     /// On the run's record, by an emulation of the program's steps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on_record: Option<ProgramOnRecord>,
-}
-
-/// What an emulation of a program finds on a record.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ProgramOnRecord {
-    /// Its largest top displacement over that of the reference, less one, up to when the motion can
-    /// be predicted; none where one of them falls or ends before that.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub top: Option<f64>,
-    /// When it gives up, if it does (s).
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub gives_up_s: Option<f64>,
-    /// When the structure has fallen over, turned by 1 rad, if it does (s).
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub falls_s: Option<f64>,
-    /// Whether no small change moves the motion by much, so that this tells of the springs; none:
-    /// not looked at.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub predictable: Option<bool>,
-}
-
-/// Below this a displacement is rounding (m).
-const ROUNDING_M: f64 = 1e-12;
-
-impl ProgramOnRecord {
-    /// When it ends, if not with the record (s).
-    pub fn ends_s(&self) -> Option<f64> {
-        self.gives_up_s.or(self.falls_s)
-    }
-
-    /// From the largest top displacements of a history and of the reference, where both stand.
-    pub fn of(tops: Option<[f64; 2]>, gives_up_s: Option<f64>) -> Self {
-        let top = tops.filter(|[_, reference]| *reference > ROUNDING_M && gives_up_s.is_none());
-        Self {
-            top: top.map(|[found, reference]| found / reference - 1.0),
-            gives_up_s,
-            falls_s: None,
-            predictable: None,
-        }
-    }
 }
 
 impl<U> ProgramRow<U> {
@@ -189,6 +155,7 @@ impl<U> ProgramRow<U> {
             units,
             stiffer_for_earthquakes: false,
             expected,
+            without_deck: false,
             on_record: None,
         }
     }
@@ -329,8 +296,10 @@ impl<U> ProgramRow<U> {
             return Some(ProgramFault::Lost { lost, motions });
         };
         let on = self.on_record.filter(|on| on.predictable != Some(false));
-        let top = on.and_then(|on| on.top).filter(|top| top.abs() > median.max(USELESS));
-        let on_record = top.map(|top| ProgramFault::OnRecord { top });
+        let on_record = on.and_then(|on| {
+            let top = on.top.filter(|top| top.abs() > median.max(USELESS))?;
+            Some(ProgramFault::OnRecord { top, until_s: on.until_s })
+        });
         let on_motions = ProgramFault::Peaks { median, motions, earthquakes };
         on_record.or((median > USELESS).then_some(on_motions))
     }
@@ -349,12 +318,13 @@ impl<U> ProgramRow<U> {
         };
         let too_long = self.step_s > by_law;
         match fault {
+            _ if self.without_deck => ProgramAdvice::OtherDeck,
             ProgramFault::Lost { .. } if too_long => step(USELESS),
             _ if !too_long && !self.has_usual_integrator() => ProgramAdvice::DefaultIntegrator,
             ProgramFault::Lost { .. } => ProgramAdvice::AnotherStep,
             ProgramFault::OnRecord { .. } if !too_long => ProgramAdvice::AnotherStep,
             ProgramFault::Peaks { median: error, .. }
-            | ProgramFault::OnRecord { top: error }
+            | ProgramFault::OnRecord { top: error, .. }
             | ProgramFault::TooLong { floor: error } => step(error.abs()),
         }
     }

@@ -290,8 +290,9 @@ pub fn with_verdict<U>(
 ) -> Vec<Finding> {
     let Some(row) = row else { return findings };
     row.asked = asked;
-    let predictable = Some(!is_sensitive(&filed(findings.clone())));
-    row.on_record = row.on_record.map(|on| ProgramOnRecord { predictable, ..on });
+    let all = filed(findings.clone());
+    let (predictable, until_s) = (Some(!is_sensitive(&all)), predictable_to(&all));
+    row.on_record = row.on_record.map(|on| ProgramOnRecord { predictable, until_s, ..on });
     let not_to_be_used = row.not_to_be_used();
     findings.extend(row.errs_on_earthquakes().map(|errors| Finding::ProgramErrsOnEarthquakes {
         program: row.program(),

@@ -34,6 +34,7 @@ use report::{
     program::with_verdict,
     summary,
 };
+use rocking::members::Members;
 use springs::elastic::{ElasticTuned, program::ElasticProgramSprings};
 use strong_motion::Record;
 
@@ -98,7 +99,8 @@ pub fn springs_alone(
 /// Springs for a program with fixed time steps, as they are filed.
 fn program_row(assembled: &Assembled, program: &ElasticProgramSprings) -> ProgramRow<CornerUnits> {
     let places = assembled.layout.corners.iter().map(|corner| corner.place[0]);
-    ProgramRow::of_corners(program, assembled.structure.mass(), places)
+    let row = ProgramRow::of_corners(program, assembled.structure.mass(), places);
+    ProgramRow { without_deck: assembled.members != Members::default(), ..row }
 }
 
 /// The deck that is to find this history, up to when it can be foretold (s) if not to its end; in a

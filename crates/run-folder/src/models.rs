@@ -95,9 +95,9 @@ fn gathered(
             Err(
                 ExportError::Member { name: member, .. }
                 | ExportError::MemberOfSteps { name: member },
-            ) => texts
-                .left_out
-                .push(format!("{name} is left out, it has no {member}: take a deck for OpenSees")),
+            ) => texts.left_out.push(format!(
+                "{name} is left out, for such tables hold no {member}: take a deck for OpenSees"
+            )),
             Err(e @ ExportError::Integrator { .. }) => {
                 texts.left_out.push(format!("{name} is left out: {e}"));
             }

@@ -25,6 +25,7 @@ fn row(floor: f64, synthetic: Option<f64>) -> ProgramRow<()> {
             synthetic: Some(errors(synthetic)),
             earthquakes: None,
         },
+        without_deck: false,
         on_record: None,
     }
 }
@@ -32,7 +33,7 @@ fn row(floor: f64, synthetic: Option<f64>) -> ProgramRow<()> {
 fn with_top(row: ProgramRow<()>, top: f64, predictable: bool) -> ProgramRow<()> {
     let predictable = Some(predictable);
     let on_record = ProgramOnRecord { predictable, ..ProgramOnRecord::of(None, None) };
-    let on_record = ProgramOnRecord { top: Some(top), ..on_record };
+    let on_record = ProgramOnRecord { top: Some(top), until_s: Some(4.42), ..on_record };
     ProgramRow { on_record: Some(on_record), ..row }
 }
 
@@ -78,12 +79,12 @@ fn what_errs_by_more_than_a_tenth_is_not_to_be_used() {
         (with_earthquakes(row(0.2, Some(0.05)), 0.3), peaks(0.3, true), step(2e-4)),
         (
             with_top(row(0.2, Some(0.15)), -0.75, true),
-            ProgramFault::OnRecord { top: -0.75 },
+            ProgramFault::OnRecord { top: -0.75, until_s: Some(4.42) },
             step(1e-4),
         ),
         (
             with_top(row(0.02, Some(0.01)), 0.12, true),
-            ProgramFault::OnRecord { top: 0.12 },
+            ProgramFault::OnRecord { top: 0.12, until_s: Some(4.42) },
             ProgramAdvice::AnotherStep,
         ),
         // peaks that err by more than 30 %, at any step
@@ -92,7 +93,13 @@ fn what_errs_by_more_than_a_tenth_is_not_to_be_used() {
         (row(0.2, None), ProgramFault::Lost { lost: 20, motions: 24 }, step(5e-4)),
     ] {
         assert_eq!(found(&bad), Some(NotToBeUsed { fault, advice }), "{bad:?}");
+        // no step mends what no deck is made of
+        let bad = ProgramRow { without_deck: true, ..bad };
+        assert_eq!(found(&bad).map(|found| found.advice), Some(ProgramAdvice::OtherDeck));
     }
+    let of_record = found(&with_top(row(0.02, Some(0.01)), -0.338, true)).unwrap().to_string();
+    let said = "this record's top displacement to 4.42 s errs by -33.8 %";
+    assert!(of_record.contains(said), "{of_record}");
 }
 
 #[test]

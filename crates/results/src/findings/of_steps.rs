@@ -31,6 +31,9 @@ pub enum ProgramFault {
     OnRecord {
         /// That error, relative, with its sign.
         top: f64,
+        /// Up to when it can be (s), if not to the record's end.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        until_s: Option<f64>,
     },
     /// Steps too long for anything to be measured.
     TooLong {
@@ -52,6 +55,8 @@ pub enum ProgramAdvice {
     DefaultIntegrator,
     /// No law tells which step.
     AnotherStep,
+    /// Another deck, for none has such steps.
+    OtherDeck,
 }
 
 /// Why springs are not to be used in a program, and what to do.
@@ -72,8 +77,10 @@ impl fmt::Display for ProgramFault {
                 let median = percent(*median);
                 write!(f, "peaks err by {median} in the median of {motions} {like}motions")
             }
-            Self::OnRecord { top } => {
-                write!(f, "this record's top displacement errs by {}", signed_percent(*top))
+            Self::OnRecord { top, until_s } => {
+                let to = until_s.map(|until| format!(" to {} s", significant(until, 3)));
+                let (to, errs) = (to.unwrap_or_default(), signed_percent(*top));
+                write!(f, "this record's top displacement{to} errs by {errs}")
             }
             Self::TooLong { floor } => write!(
                 f,
@@ -94,6 +101,7 @@ impl fmt::Display for ProgramAdvice {
                 write!(f, "take the default integrator (leave --integrator out)")
             }
             Self::AnotherStep => write!(f, "try another --step, longer ones too"),
+            Self::OtherDeck => write!(f, "take OpenSees' deck: no other has its dampers or tendon"),
         }
     }
 }
