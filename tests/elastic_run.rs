@@ -60,7 +60,8 @@ fn a_pier_is_tuned_and_what_is_written_agrees_with_itself() {
     let history = read("history.csv");
     assert_eq!(
         history.lines().next().unwrap(),
-        "t,theta_reference,drift_reference,theta_fem,drift_fem,uplift_1,uplift_2"
+        "t,theta_reference,drift_reference,theta_fem,drift_fem,uplift_1,uplift_2,\
+            foot_1_moved_reference,foot_1_moved_fem"
     );
     assert_eq!(history.lines().count(), 2002);
     let page = read("report.html");

@@ -1,6 +1,7 @@
 //! What is said of an elastic structure's run: the structure on rigid ground beside the same on its
 //! springs.
 
+mod feet;
 mod forces;
 mod peaks;
 pub(crate) mod springs;
@@ -24,7 +25,9 @@ use frames::{
 };
 use parameters::elastic::{ElasticParameters, OnRecord};
 pub use peaks::{SAME_IMPACT, impacts};
-use results::{DesignForce, DesignForces, Ending, Finding, FindingModel, ForceName, PeakChange};
+use results::{
+    DeckEnd, DesignForce, DesignForces, Ending, Finding, FindingModel, ForceName, PeakChange,
+};
 use rocking::{
     members::Members,
     motion::{TimedPeak, peak},
@@ -35,9 +38,6 @@ use strong_motion::Record;
 /// Part of what a footing bears at rest below which its force tells nothing of friction: it all but
 /// flies.
 const LEAST_PRESS: f64 = 0.1;
-
-/// Share of the feet's distance above which it is said that they end elsewhere than they began.
-const LEAST_APART: f64 = 1e-3;
 
 /// What a run is told from.
 pub struct ElasticParts<'a> {
@@ -122,9 +122,10 @@ impl ElasticParts<'_> {
         // what of the search was cut is there already
         let mut all: Vec<Finding> =
             parameters.findings.iter().map(|filed| filed.finding.clone()).collect();
+        let judged = judged::elastic(self.assembled, &self.answer.histories, self.record);
         if let Some(on) = &parameters.on_record {
             all.extend(self.what_it_does(on));
-            all.extend(foretold(on, parameters.design_forces.as_ref()));
+            all.extend(foretold(on, judged.as_ref(), parameters.design_forces.as_ref()));
             let alpha = self.assembled.structure.body().alpha();
             all.extend(on.near.iter().map(|near| nearby(near, alpha)));
             let motions = self.answer.near_left_out;
@@ -139,9 +140,8 @@ impl ElasticParts<'_> {
             available: self.friction,
             press_over_weight: Some(press),
         }));
-        let predictable = parameters.on_record.is_none_or(|on| on.foretold_s.is_none());
-        let apart = self.feet_apart();
-        all.extend(apart.map(|apart_m| Finding::FeetApart { apart_m, predictable }));
+        let until = all.iter().chain(&judged).filter_map(Finding::predictable_to);
+        all.extend(self.feet_moved(until.reduce(f64::min)));
         let (whole, peaks) = (&self.case.excitation.record, self.peaks().reference);
         all.extend(cut_at_largest(&peaks, whole, self.record));
         all.extend(self.vertical_left_out());
@@ -152,22 +152,8 @@ impl ElasticParts<'_> {
         all.extend(parameters.design_forces.iter().filter_map(|forces| forces.held_in_part()));
         all.extend(parameters.design_forces.iter().filter_map(|forces| forces.of_cutoff()));
         all.extend(parameters.design_forces.iter().flat_map(|forces| forces.withheld()));
-        all.extend(judged::elastic(self.assembled, &self.answer.histories, self.record));
+        all.extend(judged);
         all
-    }
-
-    /// How much further apart the outer feet are at the end of the reference than at its start (m),
-    /// where that is some share of their distance.
-    fn feet_apart(&self) -> Option<f64> {
-        let history = &self.answer.histories.reference.history;
-        let stood = matches!(history.outcome, ReferenceOutcome::Completed);
-        let (first, last) = (history.q.first()?, history.q.last().filter(|_| stood)?);
-        let places = self.assembled.frame.places();
-        let (left, right) = (places.first()?, places.last()?);
-        let apart = |q: &[f64]| right.reach(q).place[0] - left.reach(q).place[0];
-        let moved = apart(last.as_slice()) - apart(first.as_slice());
-        (moved.abs() > LEAST_APART * 2.0 * self.assembled.structure.body().half_width)
-            .then_some(moved)
     }
 
     /// A vertical component of some size that is left out: what it would change.
@@ -313,13 +299,26 @@ impl ElasticParts<'_> {
     }
 }
 
-fn foretold(on: &OnRecord, forces: Option<&DesignForces>) -> Option<Finding> {
-    let (foretold, softer_hz) = (on.foretold_s?, on.softer_omega_n_hz);
+/// Up to when the motion can be foretold: as far as a deck is `judged` one to one, which is less
+/// than springs are compared over; and what comes after.
+fn foretold(
+    on: &OnRecord,
+    judged: Option<&Finding>,
+    forces: Option<&DesignForces>,
+) -> Option<Finding> {
+    let (foretold, slides) = match judged {
+        Some(Finding::DeckJudged { judged_s, end: DeckEnd::Foretold, .. }) => (*judged_s, None),
+        Some(Finding::DeckJudged { judged_s, end: DeckEnd::Slides, .. }) => {
+            (*judged_s, on.slides_on_s.or(Some(*judged_s)))
+        }
+        _ => (on.foretold_s?, on.slides_on_s),
+    };
+    let softer_hz = on.softer_omega_n_hz;
     let late = |(name, force): (ForceName, DesignForce)| {
         (force.holds && force.time_s > foretold).then_some(name)
     };
     let later_forces = forces.iter().flat_map(|forces| forces.all()).filter_map(late).collect();
-    Some(match on.slides_on_s {
+    Some(match slides {
         Some(time_s) => Finding::SlidesOn { time_s, softer_hz, later_forces },
         None => Finding::ForetoldUpTo { time_s: foretold, softer_hz, later_forces },
     })

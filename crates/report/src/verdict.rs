@@ -2,7 +2,7 @@
 
 use crate::{FiledParameters, HOUSNER, Run, predictable_to, sentence};
 use files::message::{quantity, significant};
-use results::{DeckEnd, Finding, FindingModel, PeakPair, Weight, apart_words};
+use results::{DeckEnd, Finding, FindingModel, PeakPair, Weight, feet_end};
 
 /// Share of the largest displacement below which that of a part tells nothing.
 const HARDLY: f64 = 0.02;
@@ -37,7 +37,7 @@ impl Run {
             "{}{}{}{}",
             told.message,
             self.not_computed(),
-            self.feet_apart(),
+            self.feet_end(),
             self.foretold()
         ))
     }
@@ -89,12 +89,9 @@ impl Run {
     }
 
     /// Where the feet end, if not where they began.
-    fn feet_apart(&self) -> String {
-        let apart = self.findings.iter().find_map(|filed| match filed.finding {
-            Finding::FeetApart { apart_m, predictable: true } => Some(apart_m),
-            _ => None,
-        });
-        apart.map_or(String::new(), |apart| format!("; its feet end {}", apart_words(apart)))
+    fn feet_end(&self) -> String {
+        let ends = self.findings.iter().find_map(|filed| feet_end(&filed.finding));
+        ends.map_or(String::new(), |ends| format!("; {ends}"))
     }
 
     /// Whether, and up to when, a motion can be foretold; nothing where nothing rocks or stands.

@@ -10,11 +10,12 @@ mod deck_end;
 mod message;
 mod not_done;
 mod of_steps;
+mod predictable;
 mod weight;
 
 pub use deck_end::DeckEnd;
 pub use frames::design_forces::ForceName;
-pub use message::{HARDLY_ROCKS, apart_words};
+pub use message::{HARDLY_ROCKS, feet_end};
 pub use not_done::NotDone;
 pub use of_steps::{NotToBeUsed, ProgramAdvice, ProgramFault};
 pub use weight::Weight;
@@ -294,10 +295,18 @@ pub enum Finding {
         #[serde(skip_serializing_if = "Option::is_none")]
         without_to_s: Option<f64>,
     },
-    /// Feet that landed elsewhere than they stood leave the structure bent, held by friction.
-    FeetApart {
-        apart_m: f64,
-        /// Whether the motion can be foretold to its end.
+    /// Feet that landed elsewhere than they stood: the structure stands beside its place, or bent,
+    /// held by friction.
+    #[serde(alias = "feet_apart")]
+    FeetMoved {
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        aside_m: Option<f64>,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        apart_m: Option<f64>,
+        /// When all feet last press (s), of one that still rocks at the end.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        rocks_on_from_s: Option<f64>,
+        /// Whether the motion can be foretold up to then.
         #[serde(default)]
         predictable: bool,
     },
@@ -377,22 +386,6 @@ impl From<Finding> for FiledFinding {
     fn from(finding: Finding) -> Self {
         let (weight, message, remedy) = (finding.weight(), finding.message(), finding.remedy());
         Self { weight, message, remedy, finding }
-    }
-}
-
-impl Finding {
-    /// Up to when it says that the motion can be foretold (s), if not to its end.
-    pub fn predictable_to(&self) -> Option<f64> {
-        match *self {
-            Self::ForetoldUpTo { time_s, .. } | Self::SlidesOn { time_s, .. } => Some(time_s),
-            Self::IllConditioned { holds_to_s, .. } => holds_to_s,
-            // nothing was asked beyond it
-            Self::PivotLeavesGround { time_s } => Some(time_s),
-            Self::DeckJudged { judged_s, end: DeckEnd::Foretold | DeckEnd::Slides, .. } => {
-                Some(judged_s)
-            }
-            _ => None,
-        }
     }
 }
 

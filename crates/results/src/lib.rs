@@ -10,7 +10,7 @@ pub mod peaks;
 
 pub use findings::{
     DeckEnd, Ending, FiledFinding, Finding, FindingModel, ForceName, NotDone, NotToBeUsed,
-    PeakChange, ProgramAdvice, ProgramFault, Weight, apart_words,
+    PeakChange, ProgramAdvice, ProgramFault, Weight, feet_end,
 };
 pub use forces::{DesignForce, DesignForces};
 pub use frames::design_forces::{ForcesTogether, MOST_CHANGE, OtherForces};

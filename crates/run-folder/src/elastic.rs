@@ -40,7 +40,8 @@ use strong_motion::Record;
 
 mod bearing;
 mod demands;
-mod pictures;
+mod feet;
+pub mod pictures;
 mod stepped;
 pub mod words;
 
@@ -317,7 +318,7 @@ impl ElasticRun {
     }
 
     /// `history.csv`: rotation and drift of every base in the reference and on the springs, uplift
-    /// of every corner on them.
+    /// of every corner on them, and how far feet have moved in both.
     fn history(&self) -> String {
         let ElasticHistories { fem, sways, .. } = &self.answer.histories;
         let name = |what: &str, i: usize| {
@@ -336,6 +337,10 @@ impl ElasticRun {
         head.extend((1..=corners).map(|i| format!("uplift_{i}")));
         let uplifts: Vec<Vec<f64>> =
             (0..corners).map(|i| fem.uplift(&self.assembled.frame, i)).collect();
+        let feet = feet::moved(self);
+        for model in ["reference", "fem"] {
+            head.extend((1..=feet.len()).map(|i| format!("foot_{i}_moved_{model}")));
+        }
         let mut out = head.join(",") + "\n";
         let longest =
             sways.iter().flatten().map(|sway| sway.rotation.len()).fold(fem.q.len(), usize::max);
@@ -349,6 +354,7 @@ impl ElasticRun {
                 }
             }
             row.extend(uplifts.iter().map(|uplift| at(uplift)));
+            row.extend([0, 1].iter().flat_map(|k| feet.iter().map(|foot| at(&foot[*k]))));
             csv_row(&mut out, &row);
         }
         out

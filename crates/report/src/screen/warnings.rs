@@ -9,13 +9,14 @@ const WARNING: &str = "warning   ";
 /// What changes a design the most is told first.
 fn urgency(finding: &Finding) -> usize {
     match finding {
-        Finding::SearchCut { .. } | Finding::IllConditioned { .. } => 0,
-        Finding::Sliding { .. } => 1,
+        // whether it stands, and where
+        Finding::Sliding { .. } => 0,
+        Finding::FeetMoved { .. } => 1,
+        Finding::SearchCut { .. } | Finding::IllConditioned { .. } => 1,
         Finding::VerticalLeftOut { .. } => 2,
         Finding::ForcesHeldInPart { .. }
         | Finding::ForcesOfCutoff { .. }
         | Finding::ForceWithheld { .. } => 4,
-        Finding::FeetApart { .. } => DECK,
         _ => 5,
     }
 }

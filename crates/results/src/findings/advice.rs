@@ -86,7 +86,7 @@ impl Finding {
             Self::HistoryEndsEarly { .. } => {
                 "take stiffer springs, or rotational_inertia_kgm2 above 0.002 m R^2"
             }
-            Self::FeetApart { .. } => "tie the feet, or design for what stays",
+            Self::FeetMoved { .. } => "tie the feet, or design for what stays",
             Self::SmallestSteps { .. } => "compare with OpenSees: tune verify",
             Self::VerticalLeftOut { .. } => "take it: --vertical auto",
             Self::Doubt { remedy, .. } => return Some(remedy.clone()),

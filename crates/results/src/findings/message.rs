@@ -1,9 +1,11 @@
 //! The words of findings.
 
+mod feet;
 mod forces;
 mod regime;
 mod taken;
 
+pub use feet::feet_end;
 pub(super) use regime::USUAL_FRICTION;
 
 use super::{Finding, FindingModel, ForceName, PeakChange};
@@ -29,12 +31,6 @@ const HARDLY: &str = "it lifts, but does not rock to speak of";
 
 fn s(time: f64) -> String {
     format!("{} s", significant(time, 4))
-}
-
-/// How much further apart feet are (m).
-pub fn apart_words(apart_m: f64) -> String {
-    let way = if apart_m > 0.0 { "further apart" } else { "closer together" };
-    format!("{} {way}", quantity(apart_m.abs(), "m"))
 }
 
 /// Names of forces in a sentence.
@@ -91,6 +87,7 @@ impl Finding {
             Self::forces,
             Self::program,
             Self::effort,
+            Self::feet,
             Self::regime,
             Self::taken,
         ];
@@ -220,7 +217,7 @@ impl Finding {
                 format!("ill-conditioned: 0.1 % of {what} moves it by {most} %{nowhere}")
             }
             Self::ForetoldUpTo { time_s, later_forces, .. } => format!(
-                "{}after t = {} a change of a millionth grows above a thousandth of the peak",
+                "{}after t = {} a small change of the motion has grown more than 30-fold",
                 later(later_forces),
                 s(*time_s)
             ),

@@ -188,3 +188,29 @@ fn no_remedy_of_an_elastic_structure_names_what_takes_rigid_bodies_alone() {
         assert!(!remedy.contains("tune validate"), "{remedy}");
     }
 }
+
+#[test]
+fn where_feet_end_is_told_with_when_they_last_pressed_and_whether_it_can_be_predicted() {
+    let told = |rocks_on_from_s: Option<f64>, predictable: bool| {
+        let (aside_m, apart_m) = (Some(0.853), Some(-0.05102));
+        let found = Finding::FeetMoved { aside_m, apart_m, rocks_on_from_s, predictable };
+        (found.message(), feet_end(&found).unwrap())
+    };
+    let place = "853 mm beside their place and 51.02 mm closer together";
+    let (warning, short) = told(None, true);
+    let bent = "than at first: friction keeps the structure bent";
+    assert_eq!(warning, format!("at the end the feet stand {place} {bent}"));
+    assert_eq!(short, format!("its feet end {place}"));
+    let (warning, short) = told(Some(68.42), false);
+    let begins = format!(
+        "the structure still rocks at the end; at t = 68.42 s, when all feet last press, they \
+            stand {place}"
+    );
+    assert!(warning.starts_with(&begins) && warning.contains("(not predictable)"), "{warning}");
+    let rocks_on = format!("it rocks on at the end, its feet at 68.42 s {place}");
+    assert_eq!(short, format!("{rocks_on} (not predictable)"));
+    // as an earlier version filed it
+    let filed = r#"{"finding": "feet_apart", "apart_m": 0.2, "predictable": true}"#;
+    let found = serde_json::from_str::<Finding>(filed).unwrap();
+    assert_eq!(feet_end(&found).unwrap(), "its feet end 200 mm further apart");
+}

@@ -1,6 +1,6 @@
 //! The words of findings on whether the models hold.
 
-use super::{apart_words, on, s};
+use super::{on, s};
 use crate::findings::{Ending, Finding};
 use files::message::{percent, significant};
 
@@ -58,11 +58,6 @@ impl Finding {
                 };
                 format!("the history {} ends at t = {}: {why}", on(*model), s(*time_s))
             }
-            Self::FeetApart { apart_m, predictable } => format!(
-                "at the end the feet stand {} than at first{}: friction keeps the structure bent",
-                apart_words(*apart_m),
-                if *predictable { "" } else { " (not predictable)" }
-            ),
             Self::SmallestSteps { model, steps } => {
                 format!(
                     "{steps} steps of the history {} were taken at the smallest size, whatever \
