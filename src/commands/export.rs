@@ -17,7 +17,7 @@ use run_folder::{
     models::{deck_name, motion_files},
     place::{file_in, not_an_input, write_file},
 };
-use strong_motion::{Record, Source};
+use strong_motion::{Record, Source, excitation::Excitation};
 
 /// Options of `tune export`.
 #[derive(Debug, Args)]
@@ -119,7 +119,8 @@ fn rigid(
     parameters: Parameters,
     stepping: Stepping,
 ) -> Result<ExportedDeck, CommandError> {
-    let (parameters, record, line) = with_record(parameters, &o.parameters, &o.record)?;
+    let (parameters, record, excitation) = with_record(parameters, &o.parameters, &o.record)?;
+    let line = excitation.line();
     let until = predictable_to(&o.record, &parameters, &record);
     let (text, line) = match stepping {
         Stepping::Events => (deck_of(&parameters, &record, o.format, o.accuracy, until)?, line),
@@ -210,12 +211,12 @@ pub(super) fn check_accuracy(accuracy: f64) -> Result<(), CommandError> {
     Err(CommandError::option("accuracy", format_args!("{accuracy}"), remedy))
 }
 
-/// The model that decks hold, the part of its record that is used, and a line that says which: that
+/// The model that decks hold, the part of its record that is used, and what that is of: the record
 /// of the file unless given.
 pub(super) fn read(
     file: &Path,
     options: &RecordOptions,
-) -> Result<(Parameters, Record, String), CommandError> {
+) -> Result<(Parameters, Record, Excitation), CommandError> {
     with_record(Parameters::read(file)?, file, options)
 }
 
@@ -224,8 +225,8 @@ fn with_record(
     mut parameters: Parameters,
     file: &Path,
     options: &RecordOptions,
-) -> Result<(Parameters, Record, String), CommandError> {
+) -> Result<(Parameters, Record, Excitation), CommandError> {
     parameters.structure = with_inertia(&parameters.structure, &parameters.members());
     let excitation = options.checked_excitation(|| parameters.excitation(file))?;
-    Ok((parameters, excitation.used()?, excitation.line()))
+    Ok((parameters, excitation.used()?, excitation))
 }

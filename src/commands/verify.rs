@@ -21,7 +21,10 @@ use decks::{
     ACCURACY,
     verify::{ComparedPeak, LIMIT, Program, Slip, Verification, verify},
 };
-use figures::history::{self, HistoryFigure, Trace};
+use figures::{
+    brief,
+    history::{self, HistoryFigure, Trace},
+};
 use files::message::percent;
 use parameters::{Parameters, elastic::ElasticParameters, predictability::ForetoldEnd};
 use rocking::motion::Motion;
@@ -29,7 +32,7 @@ use run_folder::{
     folder::Folder, folder::identity, folder::of_one_run, pictures::subtitle, place::check_folder,
     place::write_file, tables::csv_row,
 };
-use strong_motion::Record;
+use strong_motion::{Record, excitation::Excitation};
 
 /// Options of `tune verify`.
 #[derive(Debug, Args)]
@@ -65,7 +68,7 @@ pub fn run(o: &VerifyOptions) -> Result<(), CommandError> {
     if let Some(parameters) = ElasticParameters::read(&o.parameters)? {
         return elastic::run(o, &parameters, &program);
     }
-    let (parameters, record, line) = read(&o.parameters, &o.record)?;
+    let (parameters, record, excitation) = read(&o.parameters, &o.record)?;
     check_folder(&o.out)?;
     check_accuracy(o.accuracy)?;
     let progress = Progress::new("OpenSees [s]", o.quiet);
@@ -78,10 +81,10 @@ pub fn run(o: &VerifyOptions) -> Result<(), CommandError> {
 
     let folder = Folder::begin(&o.out, "verify", FILES, of(&parameters, &record, o.accuracy))?;
     write_file(&folder.path().join("verify.csv"), csv(&result).as_bytes())?;
-    draw(folder.path(), &parameters, &record, &result)?;
+    draw(folder.path(), &parameters, &excitation, &result)?;
     folder.finish()?;
-    terminal::stdout(format_args!("{}", said(&record, &result)))?;
-    terminal::stderr(line);
+    terminal::stdout(format_args!("{}", said(&excitation, &record, &result)))?;
+    terminal::stderr(excitation.line());
     terminal::written(&o.out);
     if result.verdict.within { Ok(()) } else { Err(CommandError::Failed(refusal(&result))) }
 }
@@ -96,9 +99,9 @@ fn of(parameters: &dyn Debug, record: &Record, accuracy: f64) -> String {
 }
 
 /// Peaks first, then histories, then how often it swung, for a terminal.
-fn said(record: &Record, result: &Verification) -> String {
+fn said(excitation: &Excitation, record: &Record, result: &Verification) -> String {
     let last = (result.ours.len() - 1) as f64 * result.dt;
-    let peaks = peaks_table(&title(record, last), &result.peaks);
+    let peaks = peaks_table(&title(excitation, record, last), &result.peaks);
     let mut errors = terminal::table(["error of the history (NRMSE)", "u", "v", "theta"]);
     for (name, a) in [
         ("OpenSees against tune simulate", result.opensees_against_ours),
@@ -121,16 +124,24 @@ fn said(record: &Record, result: &Verification) -> String {
     out + &judged(result)
 }
 
+/// A record and its scale.
+fn scaled(excitation: &Excitation) -> String {
+    format!("{} × {}", excitation.record.name, brief(excitation.scale, 4))
+}
+
 /// What is compared, and over how much of the record.
-fn title(record: &Record, seconds: f64) -> String {
-    let all = record.duration();
+fn title(excitation: &Excitation, record: &Record, seconds: f64) -> String {
+    let (name, all) = (scaled(excitation), record.duration());
     let last = (seconds * 1e6).round() / 1e6;
     if last + 0.5 * record.dt < all {
-        format!("{}, first {last:.2} s of {all:.2} s", record.name)
+        format!("{name}, first {last:.2} s of {all:.2} s")
     } else {
-        format!("{}, all {all:.2} s", record.name)
+        format!("{name}, all {all:.2} s")
     }
 }
+
+/// What the error is told beside of a body that hardly moves; the table's is beside its motion.
+const OF_SIZE: &str = ", over a thousandth of half the width (above, over the motion itself)";
 
 /// What a verification says nothing of.
 const FORCES: &str =
@@ -186,8 +197,9 @@ fn judged(result: &Verification) -> String {
         ),
         None => writeln!(
             out,
-            "{agrees}: OpenSees is {whether} {LIMIT} of tune simulate's u: {:.1e}",
-            verdict.error
+            "{agrees}: OpenSees is {whether} {LIMIT} of tune simulate's u: {:.1e}{}",
+            verdict.error,
+            if verdict.stands { OF_SIZE } else { "" }
         ),
     };
     if let Some(slip) = &verdict.slip {
@@ -266,7 +278,7 @@ fn csv(result: &Verification) -> String {
 fn draw(
     out: &Path,
     parameters: &Parameters,
-    record: &Record,
+    excitation: &Excitation,
     result: &Verification,
 ) -> Result<(), CommandError> {
     fn trace<'a>(label: &'a str, motion: &'a Motion) -> Trace<'a> {
@@ -275,7 +287,7 @@ fn draw(
     let n = result.housner.len().max(result.ours.len());
     let t: Vec<f64> = (0..n).map(|i| i as f64 * result.dt).collect();
     let others = [trace("tune simulate", &result.ours), trace("OpenSees", &result.opensees)];
-    let of = subtitle(&parameters.structure, &record.name, parameters.vertical.omega_n_hz);
+    let of = subtitle(&parameters.structure, &scaled(excitation), parameters.vertical.omega_n_hz);
     let title = format!("The exported model in OpenSees\n{of}");
     let reference = trace("Housner", &result.housner);
     let data =

@@ -2,7 +2,7 @@
 
 use std::{fmt::Write as _, path::Path};
 
-use super::{FORCES, VerifyOptions, peaks_table, title};
+use super::{FORCES, VerifyOptions, peaks_table, scaled, title};
 use crate::commands::{CommandError, export::check_accuracy, progress::Progress, terminal};
 use decks::verify::{ComparedPeak, DeckRun, Program, VerifyError, number_before, run_deck};
 use figures::stack::{self, StackFigure, StackQuantity};
@@ -13,14 +13,13 @@ use frames::{
     reference::{MOST_WORK, TRIED},
 };
 use parameters::{elastic::ElasticParameters, predictability::standing_share};
-use report::elastic::title as structure_title;
 use run_folder::{
-    elastic::{deck, words},
+    elastic::{deck, pictures::subtitle, words},
     folder::Folder,
     place::{check_folder, write_file},
     tables::csv_row,
 };
-use strong_motion::Record;
+use strong_motion::{Record, excitation::Excitation};
 
 /// Largest NRMSE of rotation between OpenSees and our own history, while a change of the motion
 /// grows less than 30-fold: OpenSees' steps miss more than ours; of bending, five times that.
@@ -83,10 +82,10 @@ pub fn run(
     let folder =
         Folder::begin(&o.out, "verify", super::FILES, super::of(parameters, &record, o.accuracy))?;
     write_file(&folder.path().join("verify.csv"), csv(&pairs, record.dt).as_bytes())?;
-    draw(folder.path(), &assembled, &pairs, record.dt)?;
+    draw(folder.path(), (&assembled, parameters.omega_n_hz), &excitation, (&pairs, record.dt))?;
     folder.finish()?;
 
-    let said = said(&record, &part, &peaks, &ran, [rotation, drift]);
+    let said = said((&excitation, &record), &part, &peaks, &ran, [rotation, drift]);
     terminal::stdout(format_args!("{said}"))?;
     terminal::stderr(excitation.line());
     terminal::written(&o.out);
@@ -107,13 +106,13 @@ fn within([rotation, drift]: [f64; 2]) -> bool {
 
 /// Peaks first, then errors, for a terminal.
 fn said<T>(
-    record: &Record,
+    (excitation, record): (&Excitation, &Record),
     part: &Compared,
     peaks: &[ComparedPeak],
     ran: &DeckRun<T>,
     [rotation, drift]: [f64; 2],
 ) -> String {
-    let title = title(record, part.seconds);
+    let title = title(excitation, record, part.seconds);
     let mut said = format!(
         "{}\n\nOpenSees took {:.1} s and {} steps\n",
         peaks_table(&title, peaks),
@@ -231,9 +230,9 @@ fn csv(pairs: &[[Sway; 2]], dt: f64) -> String {
 
 fn draw(
     out: &Path,
-    assembled: &Assembled,
-    pairs: &[[Sway; 2]],
-    dt: f64,
+    (assembled, omega_n_hz): (&Assembled, f64),
+    excitation: &Excitation,
+    (pairs, dt): (&[[Sway; 2]], f64),
 ) -> Result<(), CommandError> {
     let n = pairs.first().map_or(0, |pair| pair[0].rotation.len());
     let t: Vec<f64> = (0..n).map(|i| i as f64 * dt).collect();
@@ -251,8 +250,10 @@ fn draw(
             ]
         })
         .collect();
-    let title =
-        format!("The exported model in OpenSees\n{}", structure_title(&assembled.structure));
+    let title = format!(
+        "The exported model in OpenSees\n{}",
+        subtitle(&assembled.structure, &scaled(excitation), omega_n_hz)
+    );
     let names = ["tune run", "OpenSees"];
     let data = StackFigure { title: &title, t: &t, names: &names, panels: &panels, event: None };
     Ok(stack::draw(&data)?.save(&out.join("verify.png"))?)

@@ -1,6 +1,6 @@
 //! Whether OpenSees is within its limit of our own history.
 
-use parameters::predictability::{Foretold, ForetoldEnd, STANDING, standing_error};
+use parameters::predictability::{Foretold, ForetoldEnd, STANDING, standing_error, standing_share};
 use rocking::{
     motion::{Motion, peak},
     structure::Body,
@@ -17,6 +17,9 @@ const PARTED: f64 = 0.01;
 pub struct OpenSeesVerdict {
     /// NRMSE of u over what is judged.
     pub error: f64,
+    /// Whether it is over a thousandth of half the width, of a body that hardly moves, not over the
+    /// motion.
+    pub stands: bool,
     /// Whether it is at most [`LIMIT`].
     pub within: bool,
     /// Samples judged: all, or those that can be foretold.
@@ -69,8 +72,10 @@ impl OpenSeesVerdict {
         let parted = opensees.u.iter().zip(&ours.u).position(|(a, b)| (a - b).abs() > far);
         let time = |sample: usize| sample as f64 * dt;
         let end = foretold.map(|foretold| foretold.end);
+        let stands = standing_share(b.iter(), body.half_width) < 1.0;
         Self {
             error,
+            stands,
             within: error <= LIMIT,
             samples,
             until: until.map(|samples| time(samples.saturating_sub(1))),
@@ -160,6 +165,7 @@ mod tests {
             Motion { v: u.clone(), theta: u.clone(), u }
         });
         let verdict = OpenSeesVerdict::new(&off, &ours, &Structure::paper().body(), 0.01, None);
-        assert!(verdict.within && verdict.error > 0.0, "{verdict:?}");
+        assert!(verdict.within && verdict.error > 0.0 && verdict.stands, "{verdict:?}");
+        assert!(!judged(0.0, 0, None).stands);
     }
 }
