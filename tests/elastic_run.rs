@@ -97,6 +97,17 @@ fn members_are_whole(members: &str) {
     assert!((axial / (-600e3 * 9.81) - 1.0).abs() < 1e-6, "{axial}");
 }
 
+    // the base shear is what the ground gives all corners, the footing's inertia included
+    let mut rows = members.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let head = rows.next().unwrap();
+    let column = |name: &str| head.iter().position(|cell| *cell == name).unwrap();
+    let shear = column("base_shear_n");
+    let corners = [column("corner_1_horizontal_n"), column("corner_2_horizontal_n")];
+    for row in rows {
+        let number = |i: usize| row[i].parse::<f64>().unwrap();
+        let all: f64 = corners.into_iter().map(number).sum();
+        assert!((number(shear) - all).abs() < 1e-6 * (1e6 + all.abs()), "{row:?}");
+    }
 /// The same bytes; without figures, none are left.
 fn again_on_one_thread(folder: &TestFolder) {
     let before = folder.text("out/parameters.json");

@@ -5,7 +5,8 @@ use crate::tables::{Instants, csv_row};
 use frames::fem::GroundForces;
 
 /// `members.csv` or `members_envelopes.csv`; axial forces are positive in tension, as in
-/// `BeamForces`.
+/// `BeamForces`; the base shear is all that the ground gives across, footings' inertia included, as
+/// of a rigid body.
 pub(super) fn csv(run: &ElasticRun, instants: Instants) -> String {
     let fem = &run.answer.histories.fem;
     let mut head = vec!["t".to_string(), "base_shear_n".into()];
@@ -32,7 +33,9 @@ pub(super) fn csv(run: &ElasticRun, instants: Instants) -> String {
         |forces: &GroundForces, i: usize| if at_samples { forces.at[i] } else { forces.peak[i] };
     for (i, demand) in demands.iter().enumerate() {
         let mut row = vec![i as f64 * run.record.dt];
-        row.extend(demand.values());
+        row.push(of(&fem.ground, i)[0]);
+        // the first is what columns bear at their bases
+        row.extend(demand.values().skip(1));
         row.extend(fem.forces.iter().flat_map(|corner| of(corner, i)));
         row.extend([of(&fem.ground, i)[1], run.bearing.filtered[i]]);
         csv_row(&mut out, &row);
