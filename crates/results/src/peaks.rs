@@ -6,7 +6,7 @@
 //!   bending            displacement of that point across the axis that turns with the base
 //!   feet moved         mean horizontal displacement of the feet: legs that scissor land elsewhere than they stood
 //!   uplift             of a foot or corner above the ground
-//!   drift ratio        top displacement over the height of that point
+//!   drift ratio        top displacement, less what the feet have moved then, over the height of that point
 //! ```
 //!
 //! Each is the largest magnitude by itself: the parts need not be largest at the same instant.
@@ -34,7 +34,7 @@ pub struct Peaks {
     pub feet_moved_m: Option<f64>,
     /// Of a foot (m).
     pub uplift_m: f64,
-    /// Top displacement over the height of the top.
+    /// Top displacement, less what the feet have moved then, over the height of the top.
     pub drift_ratio: f64,
     /// Parts of the top's displacement when it is largest, which are all of it; none of a rigid
     /// body.

@@ -62,6 +62,7 @@ impl ElasticParts<'_> {
                 lifted = lifted.larger(now(uplift(frame, &q)));
             }
             let top_displacement_m = top.value.abs();
+            let distorted = (then.rocking_m + then.bending_m).abs();
             let times = PeakTimes {
                 top_displacement_s: top.time,
                 rocking_s: rocking.time,
@@ -76,7 +77,7 @@ impl ElasticParts<'_> {
                 feet_moved_m: Some(moved.value.abs()),
                 then: Some(then),
                 uplift_m: lifted.value,
-                drift_ratio: top_displacement_m / top_height(&self.assembled.structure),
+                drift_ratio: distorted / top_height(&self.assembled.structure),
                 impacts,
                 times: Some(times),
             }
