@@ -17,8 +17,6 @@ const MOVED: &str = "  of it feet landed elsewhere";
 pub(crate) const LARGEST: &str = "largest by";
 /// What rows of parts of the top's displacement begin with.
 pub(crate) const PART: &str = "  of it";
-/// The part that tells what the structure gives.
-pub(crate) const BENDING: &str = "  of it by bending";
 /// The top's displacement over its height.
 pub(crate) const DRIFT_RATIO: &str = "  drift ratio";
 /// Share of the top's displacement below which it is not said.
@@ -27,7 +25,7 @@ const NOT_SAID: f64 = 0.005;
 const ROWS: [PeakRow; 9] = [
     ("top displacement", |p| Some(p.top_displacement_m), meters, at_top),
     ("  of it by rocking", |p| Some(p.then?.rocking_m), meters, at_top),
-    (BENDING, |p| Some(p.then?.bending_m), meters, at_top),
+    ("  of it by bending", |p| Some(p.then?.bending_m), meters, at_top),
     (MOVED, |p| Some(p.then?.feet_moved_m), meters, at_top),
     (DRIFT_RATIO, |p| Some(p.drift_ratio), percents, at_top),
     ("largest by rocking", |p| p.bending_m.map(|_| p.rocking_m), meters, |t| Some(t.rocking_s)),

@@ -1,18 +1,17 @@
 //! What `tune run` prints: one screen, the answer first.
 //!
-//! `lines` breaks text, `forces` has the design forces, `warnings` what room is left for.
+//! `lines` breaks text, `peaks` has the displacements, `forces` the design forces, `warnings` what
+//! room is left for.
 
 mod forces;
 mod lines;
+mod peaks;
 mod warnings;
 
-use super::{
-    Run, STEADY, Section, Table, Unit,
-    displacements::{BENDING, DRIFT_RATIO, FRICTION, LARGEST, PART},
-    peak_table,
-};
+use super::{Run, STEADY, Section, Table, Unit, peak_table};
 use files::message::{shortened, significant};
 use lines::{at_most, parts_at_most, wrap};
+use peaks::of_screen;
 use warnings::{Warned, is_doubt, tell, warnings};
 
 /// Lines of a screen, and letters of a line.
@@ -77,7 +76,7 @@ const CLOSEST: Crowding = Crowding {
 };
 
 /// The first is taken where every warning has all its lines; else the last.
-const CROWDING: [Crowding; 7] = [
+const CROWDING: [Crowding; 8] = [
     SPACIOUS,
     Crowding { empty_line: false, ..SPACIOUS },
     Crowding { assumed: 2, accuracy: 2, ..CLOSEST },
@@ -85,6 +84,7 @@ const CROWDING: [Crowding; 7] = [
     CLOSEST,
     Crowding { all_peaks: false, ..CLOSEST },
     Crowding { settings: 2, all_peaks: false, tight: true, ..CLOSEST },
+    Crowding { settings: 1, all_peaks: false, tight: true, ..CLOSEST },
 ];
 
 /// What is said where no springs suit steps of one size.
@@ -109,8 +109,6 @@ pub const ETABS_SHEET: &str = "etabs_by_hand.txt";
 const UNIT: &str = "foot - k1 (gap) - m2 - k2 and c - ground";
 /// Letters of a path in a command.
 const LONGEST_PATH: usize = 58;
-/// The row of the table of peaks that gives way to warnings.
-const IMPACTS: &str = "impacts";
 /// What a doubt of what was given begins with.
 const CHECK: &str = "CHECK     ";
 /// What the report's line begins with.
@@ -221,30 +219,6 @@ fn answer(run: &Run, written: &Written, crowding: Crowding) -> Vec<String> {
         }
     }
     next(run, written, crowding, &mut lines);
-    lines
-}
-
-/// The table of peaks without what the report alone has; the friction needed stands behind the
-/// impacts, outside of the columns, if there is room for both.
-fn of_screen(mut table: Table, Crowding { all_peaks, tight, .. }: Crowding) -> Vec<String> {
-    let friction = table.rows.pop_if(|row| row.first().is_some_and(|name| name == FRICTION));
-    let bends = table.rows.iter().any(|row| row[0] == BENDING);
-    let first_to_go = |name: &str| name.starts_with(PART) || (bends && name == DRIFT_RATIO);
-    let left_out = |name: &str| {
-        name.starts_with(LARGEST)
-            || (!all_peaks && name.starts_with(IMPACTS))
-            || (tight && name != BENDING && first_to_go(name))
-    };
-    let counted = table.rows.iter().any(|row| row[0].starts_with(IMPACTS));
-    table.rows.retain(|row| !left_out(&row[0]));
-    let mut lines = table.lines();
-    let Some(friction) = friction.filter(|_| all_peaks || !counted) else { return lines };
-    let friction = friction[..2].join(": ");
-    let room = |line: &&mut String| line.chars().count() + 3 + friction.chars().count() <= WIDTH;
-    match lines.last_mut().filter(|line| line.starts_with(IMPACTS)).filter(room) {
-        Some(line) => *line += &format!(";  {friction}"),
-        None => lines.push(friction),
-    }
     lines
 }
 

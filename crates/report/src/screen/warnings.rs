@@ -113,6 +113,26 @@ mod tests {
     }
 
     #[test]
+    fn what_a_structure_may_fail_by_is_told_first() {
+        let sliding = Finding::Sliding {
+            needed: 2.81,
+            time_s: None,
+            available: 0.5,
+            press_over_weight: Some(0.209),
+        };
+        let feet = Finding::FeetMoved {
+            aside_m: Some(0.85),
+            apart_m: None,
+            rocks_on_from_s: None,
+            predictable: false,
+        };
+        let left_out = Finding::NearMotionsLeftOut { motions: 1, all: false };
+        let force = Finding::ForcesAtRest { forces: Vec::new() };
+        let all = [sliding, feet, left_out, force].map(|finding| urgency(&finding));
+        assert!(all[0] < all[1] && all[1] < all[2] && all[2] <= all[3], "{all:?}");
+    }
+
+    #[test]
     fn a_warning_is_told_in_all_its_lines_or_counted() {
         let starts = |lines: &[String]| lines.iter().filter(|l| l.starts_with(WARNING)).count();
         for (room, lines, warnings) in [(9, 6, 3), (6, 6, 3), (5, 5, 2), (4, 4, 2), (3, 3, 1)] {
