@@ -27,7 +27,7 @@ impl Unjudged {
     fn words(self) -> &'static str {
         match self {
             Self::TooSensitive => "this record is too sensitive",
-            Self::NothingRocks => "this record: nothing rocks",
+            Self::NothingRocks => "this record: it does not rock",
         }
     }
 }

@@ -388,8 +388,11 @@ impl Run {
     }
 }
 
-/// With a capital letter and a full stop.
+/// With a capital letter and a full stop; a key stays as it is written.
 pub fn sentence(message: &str) -> String {
+    if message.split(' ').next().is_some_and(|word| word.contains('_')) {
+        return format!("{}.", message.trim_end_matches('.'));
+    }
     let mut letters = message.chars();
     let first = letters.next().map(|c| c.to_uppercase().collect::<String>()).unwrap_or_default();
     format!("{first}{}.", letters.as_str().trim_end_matches('.'))

@@ -10,7 +10,7 @@ use super::{
     sentence,
 };
 use files::message::{percent, quantity};
-use results::{FiledFinding, Weight};
+use results::{FiledFinding, PeakTimes, Weight};
 
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
@@ -77,18 +77,41 @@ fn head(run: &Run) -> String {
     )
 }
 
+/// What is added to the name of a number that cannot be predicted.
+fn doubt(late: bool) -> &'static str {
+    if late { " (not predictable)" } else { "" }
+}
+
 fn tiles(run: &Run) -> String {
     let mut out = String::new();
     if let Some(pair) = &run.peaks {
         let (shown, reference) = (pair.with_members.unwrap_or(pair.springs), pair.reference);
         let m = |x: f64| quantity(exact(x), "m");
-        let top =
-            format!("top displacement; {} {}", run.reference, m(reference.top_displacement_m));
+        let until = run.predictable_to();
+        let late = |when: fn(&PeakTimes) -> f64| {
+            let time = shown.times.as_ref().map(when);
+            doubt(time.zip(until).is_some_and(|(time, until)| time > until))
+        };
+        let of_top = late(|times| times.top_displacement_s);
+        let top = format!(
+            "top displacement{of_top}; {} {}",
+            run.reference,
+            m(reference.top_displacement_m)
+        );
         out += &tile(&m(shown.top_displacement_m), &top);
-        out += &tile(&percent(shown.drift_ratio), "drift ratio: top displacement over height");
+        let drift = match shown.feet_moved_m {
+            Some(_) => "drift ratio: top displacement without the feet's, over height",
+            None => "drift ratio: top displacement over height",
+        };
+        out += &tile(&percent(shown.drift_ratio), &format!("{drift}{of_top}"));
         out += &tile(
             &m(shown.uplift_m),
-            &format!("uplift; {} {}", run.reference, m(reference.uplift_m)),
+            &format!(
+                "uplift{}; {} {}",
+                late(|times| times.uplift_s),
+                run.reference,
+                m(reference.uplift_m)
+            ),
         );
         out += &tile(
             &shown.impacts.to_string(),
@@ -98,7 +121,8 @@ fn tiles(run: &Run) -> String {
     for (name, force) in run.design_forces.iter().flat_map(|forces| forces.all()) {
         let value =
             force.value.map_or("withheld".into(), |value| quantity(value.abs(), name.unit()));
-        out += &tile(&value, run.force_words()(name));
+        let name = run.force_words()(name);
+        out += &tile(&value, &format!("{name}{}", doubt(Run::doubts(&force))));
     }
     if let Some(a) = &run.accuracy {
         let asked = match (a.peaks_asked, a.history_asked) {

@@ -32,8 +32,8 @@ pub struct DesignForce {
     /// Of the rigid body by Housner's equation (N or N m).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rigid: Option<f64>,
-    /// Of an A-frame's legs: what they bear at rest, half of the weight on each foot and no thrust
-    /// (N or N m).
+    /// Of an A-frame's legs: what they bear at rest, half of the weight on each foot and no thrust,
+    /// which is assumed: of feet that are held it is next to nothing (N or N m).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at_rest: Option<f64>,
     /// What a column's base, a leg or a block's base bears at that time; of an elastic structure

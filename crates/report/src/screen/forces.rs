@@ -88,8 +88,10 @@ pub(super) fn lines(run: &Run, tight: bool) -> Vec<String> {
     if !withheld.is_empty() {
         let range = |(name, force): &(ForceName, DesignForce)| {
             let range = force.others.and_then(|others| others.range());
-            let range =
-                range.map_or(String::new(), |range| format!(" {}", range_words(*name, range)));
+            let range = match range {
+                Some(range) => format!(" {}", range_words(*name, range)),
+                None => varies(force),
+            };
             format!("{}{range}", short(run, *name, force))
         };
         let all: Vec<String> = withheld.iter().map(range).collect();
@@ -161,7 +163,7 @@ fn value(name: ForceName, force: &DesignForce, mark: &str, told: Told) -> String
                 };
                 format!("withheld: {}{held}", range_words(name, range))
             }
-            None => "withheld".into(),
+            None => format!("withheld{}", varies(force)),
         };
     };
     let when = match force.is_at_rest() {
@@ -182,6 +184,11 @@ fn value(name: ForceName, force: &DesignForce, mark: &str, told: Told) -> String
     format!("{}{mark}{when}{up}{axial}{until}", newtons(largest))
 }
 
+/// Why a force is withheld.
+fn varies(force: &DesignForce) -> String {
+    force.change.map_or(String::new(), |change| format!(" (varies {})", percent(change)))
+}
+
 /// Two cells to a line, names and values below each other; none if a line would be too long.
 fn in_pairs(cells: &[[String; 2]]) -> Option<Vec<String>> {
     let letters = |text: &String| text.chars().count();
@@ -198,4 +205,16 @@ fn in_pairs(cells: &[[String; 2]]) -> Option<Vec<String>> {
     };
     let lines: Vec<String> = cells.chunks(2).map(line).collect();
     lines.iter().all(|line| letters(line) <= WIDTH).then_some(lines)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_force_that_is_withheld_has_its_reason() {
+        let force = DesignForce { change: Some(0.21), ..DesignForce::default() };
+        let told = value(ForceName::ColumnShear, &force, "", Told::Value);
+        assert_eq!(told, "withheld (varies 21.0 %)");
+    }
 }

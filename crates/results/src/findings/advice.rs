@@ -188,6 +188,10 @@ impl Finding {
                 "A body on soft springs sways before it lifts and loses less; a restitution other \
                     than equation 2's is met by a search, not exactly."
             }
+            Self::Sliding { press_over_weight: Some(_), .. } => {
+                "Rigid ground and the springs hold the feet at any force. A real structure would \
+                    slide, and rock less."
+            }
             Self::Sliding { .. } => {
                 "Housner's body and the springs hold the feet at any force. A real structure would \
                     slide, and rock less."

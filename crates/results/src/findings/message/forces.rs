@@ -55,7 +55,9 @@ impl Finding {
             }
             Self::ForcesAtRest { forces } => format!(
                 "{} {} largest at rest: the frame's own weight, with a vertical motion more of it, \
-                    half on each foot and no thrust between them; rocking adds nothing",
+                    half on each foot and no thrust between them; rocking adds nothing. That feet \
+                    do not thrust is assumed: a tie or friction that holds them bears a thrust, \
+                    and leaves next to no shear and moment in legs at rest",
                 listed(forces),
                 if forces.len() == 1 { "is" } else { "are" }
             ),
