@@ -345,3 +345,45 @@ fn largest_at(sways: &[[Sway; 2]], k: usize) -> usize {
 pub fn largest(sways: &[[Sway; 2]], k: usize, of: fn(&Sway) -> &[f64]) -> f64 {
     sways.iter().map(|pair| peak(of(&pair[k])).abs()).fold(0.0, f64::max)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Springs are compared over 12.2 s, a deck over 4.42 s: this is how far the motion is foretold.
+    #[test]
+    fn a_motion_is_foretold_for_as_long_as_its_deck_is_judged() {
+        let on = OnRecord {
+            compared_s: 12.2,
+            whole: false,
+            foretold_s: Some(12.2),
+            slides_on_s: Some(12.2),
+            softer_omega_n_hz: None,
+            nrmse_rotation: None,
+            nrmse_drift: None,
+            peak_ratio_reference: 0.5,
+            peak_ratio_fem: 0.5,
+            peak_drift_reference_m: 0.1,
+            peak_drift_fem_m: 0.1,
+            lifts_s: None,
+            landings_reference: 4,
+            touches_fem: 9,
+            energy_residual: 1e-7,
+            near: None,
+        };
+        let judged = |end| Finding::DeckJudged { judged_s: 4.42, record_s: 40.0, end };
+        let shear = DesignForce { holds: true, time_s: 6.0, ..DesignForce::default() };
+        let forces = DesignForces { column_shear_n: Some(shear), ..DesignForces::default() };
+        let told = |end| foretold(&on, Some(&judged(end)), Some(&forces)).unwrap();
+        let (softer_hz, later_forces) = (None, vec![ForceName::ColumnShear]);
+        let until =
+            Finding::ForetoldUpTo { time_s: 4.42, softer_hz, later_forces: later_forces.clone() };
+        assert_eq!(told(DeckEnd::Foretold), until);
+        // without a deck's, and where a corner slides
+        let slides = foretold(&on, None, Some(&forces)).unwrap();
+        assert!(matches!(slides, Finding::SlidesOn { time_s: 12.2, later_forces, .. }
+            if later_forces.is_empty()));
+        assert!(matches!(told(DeckEnd::Slides), Finding::SlidesOn { later_forces, .. }
+            if later_forces == [ForceName::ColumnShear]));
+    }
+}

@@ -35,7 +35,8 @@ struct Crowding {
     /// Lines of what a program with fixed time steps errs.
     program: usize,
     /// Lines of what such a program is to be set to: all of it, without what is only to be left at
-    /// nought and one, or what there is room for.
+    /// nought and one, or what there is room for. In none, it is left to the report, as what a unit
+    /// is made of.
     settings: usize,
     /// Whether impacts, and the friction needed, stand in the table of peaks.
     all_peaks: bool,
@@ -67,7 +68,7 @@ const CLOSEST: Crowding = Crowding {
     assumed: 1,
     accuracy: 1,
     measured: 1,
-    sentence: 2,
+    sentence: 3,
     both_commands: false,
     program: 1,
     settings: 3,
@@ -84,7 +85,7 @@ const CROWDING: [Crowding; 8] = [
     CLOSEST,
     Crowding { all_peaks: false, ..CLOSEST },
     Crowding { settings: 2, all_peaks: false, tight: true, ..CLOSEST },
-    Crowding { settings: 1, all_peaks: false, tight: true, ..CLOSEST },
+    Crowding { settings: 0, all_peaks: false, tight: true, ..CLOSEST },
 ];
 
 /// What is said where no springs suit steps of one size.
@@ -203,7 +204,9 @@ fn answer(run: &Run, written: &Written, crowding: Crowding) -> Vec<String> {
     lines.extend(peak_table(run).into_iter().flat_map(|table| of_screen(table, crowding)));
     lines.extend(forces::lines(run, crowding.tight));
     springs(run, &mut lines);
-    lines.push(format!("  {}, each direction: {UNIT}", run.springs_at));
+    if crowding.settings > 0 {
+        lines.push(format!("  {}, each direction: {UNIT}", run.springs_at));
+    }
     if let Some(accuracy) = &run.accuracy {
         let parts = accuracy.short(crowding.measured, run.unjudged());
         // as many parts as there is room for
@@ -337,7 +340,7 @@ fn next(run: &Run, written: &Written, crowding: Crowding, lines: &mut Vec<String
             let fits = told.iter().position(|some| some.len() <= crowding.program);
             lines.append(&mut told[fits.unwrap_or(told.len() - 1)]);
             let settings = program.settings(crowding.settings >= ALL_SETTINGS);
-            if !settings.is_empty() {
+            if !settings.is_empty() && crowding.settings > 0 {
                 let place = if written.report { "report.html" } else { "--verbose" };
                 let rest = format!("all settings: {place}");
                 parts_at_most(crowding.settings, lines, "  set to  ", &settings, &rest);

@@ -23,11 +23,9 @@ pub fn feet_end(finding: &Finding) -> Option<String> {
     let Finding::FeetMoved { aside_m, apart_m, rocks_on_from_s, predictable } = *finding else {
         return None;
     };
-    let place = place(aside_m, apart_m) + doubt(predictable);
-    Some(match rocks_on_from_s {
-        Some(time) => format!("it rocks on at the end, its feet at {} {place}", s(time)),
-        None => format!("its feet end {place}"),
-    })
+    let place = place(aside_m, apart_m).replace("beside their place", "aside");
+    let does = if rocks_on_from_s.is_some() { "it rocks on, its feet" } else { "its feet end" };
+    Some(format!("{does} {place}{}", doubt(predictable)))
 }
 
 impl Finding {
