@@ -7,7 +7,7 @@ use pyo3::{IntoPyObjectExt, prelude::*, types::PyTuple};
 use report::rigid::RigidRun;
 use run_folder::rigid::{Output, save};
 use springs::job::Job;
-use strong_motion::excitation::Excitation;
+use strong_motion::excitation::of_record;
 
 use crate::{
     numbers::seconds,
@@ -214,7 +214,7 @@ pub fn tune(
         max_settlement_m: max_settlement,
         ..Tuning::default()
     };
-    let excitation = Excitation { record, scale, duration_s: duration };
+    let excitation = of_record(record, scale, duration);
     let case = Case::new("tune", (structure.core, structure.e), excitation, tuning)
         .map_err(value_error)?;
     let (run, simulation) = interruptible(py, |stop| {

@@ -133,6 +133,17 @@ def test_tuned_springs_reach_what_was_asked_for_and_say_so() -> None:
         gs.tune(FRAME, gs.el_centro().truncated(20.0), max_hz=160.0)
 
 
+def test_a_record_that_was_cut_and_scaled_is_saved_with_its_length_and_scale(tmp_path: Path) -> None:
+    def saved(folder: str, record: gs.Record, **how: float) -> dict[str, object]:
+        gs.tune(FRAME, record, accuracy=0.01, **how).save(tmp_path / folder, figures=False)
+        parameters: dict[str, object] = json.loads((tmp_path / folder / "parameters.json").read_text())["record"]
+        return parameters
+
+    made = saved("made", gs.el_centro().truncated(20.0).scaled(1.1))
+    assert made == saved("asked", gs.el_centro(), duration=20.0, scale=1.1)
+    assert (made["samples"], made["duration_s"], made["scale"]) == (3995, 20.0, 1.1)
+
+
 def test_the_design_without_units_is_that_of_every_body_of_its_geometry() -> None:
     small = gs.Structure.block(0.5, 0.125, 10.0)
     design = gs.design(small, stiffness=50_000.0)

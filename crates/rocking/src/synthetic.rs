@@ -98,6 +98,7 @@ pub fn record(seed: u64, index: usize, p: f64, alpha: f64) -> Record {
         accel,
         vertical: None,
         source: Source::Synthetic,
+        made_of: None,
     }
 }
 
@@ -128,6 +129,7 @@ pub fn earthquake(seed: u64, index: usize, p: f64) -> Record {
         accel,
         vertical: None,
         source: Source::Earthquake,
+        made_of: None,
     }
 }
 

@@ -15,6 +15,16 @@ pub struct Excitation {
     pub duration_s: Option<f64>,
 }
 
+/// The ground motion of a record at a scale and as long as asked for. Of a record that was scaled
+/// or cut it is that of the whole one, unscaled.
+pub fn of_record(record: Record, scale: f64, duration_s: Option<f64>) -> Excitation {
+    let Some(made_of) = record.made_of.as_deref() else {
+        return Excitation { record, scale, duration_s };
+    };
+    let shorter = made_of.duration_s.into_iter().chain(duration_s).reduce(f64::min);
+    Excitation { record: made_of.record.clone(), scale: scale * made_of.scale, duration_s: shorter }
+}
+
 /// A vertical component that is left out, beside the horizontal one: peaks of the whole file,
 /// scaled.
 #[derive(Clone, Copy, Debug, PartialEq)]

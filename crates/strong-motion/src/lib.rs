@@ -41,7 +41,9 @@ mod timing;
 mod units;
 mod vertical;
 
-use std::path::Path;
+use std::{path::Path, sync::Arc};
+
+use excitation::{Excitation, of_record};
 
 pub use column::TableColumn;
 pub use direction::Direction;
@@ -82,6 +84,8 @@ pub struct Record {
     pub vertical: Option<Vertical>,
     /// Where it comes from, which scaling and cutting do not change.
     pub source: Source,
+    /// Of a record that was scaled or cut: the one that it was made of, and how.
+    pub made_of: Option<Arc<Excitation>>,
 }
 
 impl PartialEq for Record {
@@ -120,7 +124,14 @@ impl Record {
     /// # Errors
     /// dt not between 1e-6 and 1 s, no sample, a sample that is not finite, a peak above 50 g.
     pub fn new(name: impl Into<String>, dt: f64, accel: Vec<f64>) -> Result<Self, RecordError> {
-        let record = Self { name: name.into(), dt, accel, vertical: None, source: Source::Numbers };
+        let record = Self {
+            name: name.into(),
+            dt,
+            accel,
+            vertical: None,
+            source: Source::Numbers,
+            made_of: None,
+        };
         let name = || text::quote(&record.name);
         check_step(&record.name, dt)?;
         if record.accel.is_empty() {
@@ -180,7 +191,8 @@ impl Record {
                 Self::new(up.name.clone(), self.dt, up.accel.iter().map(|a| a * factor).collect())?;
             Ok::<_, RecordError>(Vertical { accel: scaled.accel.into(), ..up.clone() })
         });
-        Ok(Self { source: self.source.clone(), vertical: vertical.transpose()?, ..scaled })
+        let made_of = Some(Arc::new(of_record(self.clone(), factor, None)));
+        Ok(Self { source: self.source.clone(), vertical: vertical.transpose()?, made_of, ..scaled })
     }
 
     /// The first `duration_s` seconds: the samples up to that time, at least the first.
@@ -189,13 +201,18 @@ impl Record {
         // 2000
         let steps = (duration_s / self.dt + 1e-6).floor();
         let samples = (steps as usize).saturating_add(1).min(self.accel.len());
+        if samples == self.len() {
+            return self.clone();
+        }
         let (name, source) = (self.name.clone(), self.source.clone());
         let vertical = self.vertical.as_ref();
         let vertical = vertical.map(|up| Vertical {
             accel: up.accel[..samples.min(up.accel.len())].into(),
             ..up.clone()
         });
-        Self { name, dt: self.dt, accel: self.accel[..samples].to_vec(), vertical, source }
+        let accel = self.accel[..samples].to_vec();
+        let made_of = Some(Arc::new(of_record(self.clone(), 1.0, Some(duration_s))));
+        Self { name, dt: self.dt, accel, vertical, source, made_of }
     }
 
     /// Peak ground acceleration (m/s2).

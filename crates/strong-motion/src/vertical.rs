@@ -93,7 +93,7 @@ impl Vertical {
     /// As a record of its own, with the time step given (s).
     pub fn as_record(&self, dt: f64) -> Record {
         let (name, source) = (self.name.clone(), self.source.clone());
-        Record { name, dt, accel: self.accel.to_vec(), vertical: None, source }
+        Record { name, dt, accel: self.accel.to_vec(), vertical: None, source, made_of: None }
     }
 
     /// The component's numbers, turned upwards where the file counts them downwards.
@@ -237,8 +237,12 @@ impl Record {
     /// It has another time step or another number of samples.
     pub fn with_vertical(self, vertical: Self) -> Result<Self, RecordError> {
         self.agrees(&vertical)?;
+        // components that were scaled or cut each on its own are in no file together
+        let apart = self.made_of.is_some() || vertical.made_of.is_some();
+        let of = |source| if apart { Source::Numbers } else { source };
         let Self { name, accel, source, .. } = vertical;
-        Ok(Self { vertical: Some(Vertical { name, accel: accel.into(), source }), ..self })
+        let vertical = Some(Vertical { name, accel: accel.into(), source: of(source) });
+        Ok(Self { vertical, source: of(self.source), made_of: None, ..self })
     }
 
     /// Vertical acceleration at the record's times (m/s2), positive upwards; empty if it has none.

@@ -138,7 +138,14 @@ impl SweepMotion {
                 };
                 let (dt, mut accel) = shape.sampled(frequency.omega(p), GRAVITY, greatest);
                 accel.resize(accel.len() + (SILENCE / (least * dt)).ceil() as usize, 0.0);
-                Record { name: self.name(), dt, accel, vertical: None, source: Source::Synthetic }
+                Record {
+                    name: self.name(),
+                    dt,
+                    accel,
+                    vertical: None,
+                    source: Source::Synthetic,
+                    made_of: None,
+                }
             }
         };
         let velocity = match self {

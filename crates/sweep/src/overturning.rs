@@ -129,6 +129,7 @@ fn of_cell(plan: &Plan, springs: Option<&SpringsTable>, cell: Cell) -> Vec<Overt
             accel,
             vertical: None,
             source: Source::Synthetic,
+            made_of: None,
         };
         let still = housner::history(&subject.body, dt, &[0.0]);
         let wanted = |&scale: &f64| WantedHistory { subject, springs, scale, rigid: &still };

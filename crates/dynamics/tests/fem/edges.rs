@@ -24,6 +24,7 @@ fn shaken(hz: f64, dt: f64, accel: &[f64]) -> History {
         accel: accel.to_vec(),
         vertical: None,
         source: Source::Numbers,
+        made_of: None,
     };
     settled(&block(), plastic(hz, block().mass_kg), &record, Control::default())
 }

@@ -1,6 +1,7 @@
 use super::*;
 use dynamics::spring::{Design, Springs};
 use rocking::structure::Structure;
+use strong_motion::excitation::of_record;
 
 fn parameters(excitation: &Excitation, folder: &Path) -> Parameters {
     let design = Design::from_kc(0.3, 0.1, 0.75, 160.0);
@@ -91,6 +92,26 @@ fn a_vertical_component_that_goes_on_after_the_record_is_found_again() {
         let changed = written.excitation(&dir.path().join("parameters.json"));
         assert!(matches!(changed, Err(RememberedError::Changed { .. })));
     }
+}
+
+/// Records cut and scaled in memory are told as such, and are found again.
+#[test]
+fn a_record_that_was_scaled_and_cut_is_found_again_with_its_scale_and_length() {
+    let made = Record::el_centro().truncated(20.0).scaled(1.5).unwrap();
+    let excitation = of_record(made.clone(), 2.0, Some(30.0));
+    let written = again(&parameters(&excitation, Path::new("out")));
+    let row = written.record.as_ref().unwrap();
+    assert_eq!((row.samples, row.scale, row.duration_s), (3995, Some(3.0), Some(20.0)));
+    let found = written.excitation(Path::new("p.json")).unwrap();
+    assert_eq!(found.used().unwrap().len(), made.len());
+    assert_eq!(found.used().unwrap().pga_g(), Record::el_centro().scaled(3.0).unwrap().pga_g());
+    // one cut after another: the shorter one
+    let short = of_record(Record::el_centro().truncated(5.0).truncated(9.0), 1.0, None);
+    assert_eq!((short.duration_s, short.scale), (Some(5.0), 1.0));
+    // put together of parts it is in no file
+    let apart = made.clone().with_vertical(made).unwrap();
+    let numbers = parameters(&of_record(apart, 1.0, None), Path::new("out"));
+    assert!(matches!(numbers.excitation(Path::new("p.json")), Err(RememberedError::NoFile { .. })));
 }
 
 #[test]

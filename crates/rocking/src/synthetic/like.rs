@@ -167,7 +167,7 @@ impl MotionTarget {
         let mut accel = best.map_or_else(Vec::new, |(_, accel)| accel);
         accel.resize(accel.len() + (silence_s(p) / self.dt).ceil() as usize, 0.0);
         let name = format!("like-{}-{index:05}", self.name);
-        Record { name, dt: self.dt, accel, vertical: None, source: Source::Synthetic }
+        Record { name, dt: self.dt, accel, vertical: None, source: Source::Synthetic, made_of: None }
     }
 
     /// Whether a motion is about as long as the given one and moves the ground not much farther.
