@@ -33,7 +33,7 @@ mod pulse;
 mod random;
 mod spectrum;
 
-pub use like::{LikeError, MotionTarget};
+pub use like::{LikeError, Likeness, MotionTarget, likeness};
 pub use pulse::Pulse;
 pub use spectrum::ResponseSpectrum;
 

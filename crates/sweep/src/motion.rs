@@ -36,6 +36,8 @@ impl Frequency {
 /// A motion that others are made like, and what the reader of its file says of it.
 #[derive(Debug)]
 pub struct GivenMotion {
+    /// All of it.
+    pub whole: Record,
     /// Spectrum and envelope.
     pub target: MotionTarget,
     /// What its reader says.

@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! a(t) = E(t) sum_k A_k cos(w_k t + phi_k)        phi_k even in 0 to 2 pi, by seed and index
-//! E^2(t): a^2 of the given motion, smoothed over a second or so         A_k: its Fourier amplitudes, smoothed
+//! E^2(t): a^2 of the given motion, smoothed over a fraction of its strong part
+//! A_k: its Fourier amplitudes, smoothed
 //! X(f) <- X(f) S_given(1/f)/S(1/f)                until the spectra S of 5 % damping agree
 //! ```
 //!
@@ -10,7 +11,8 @@
 //! prescribed response spectra", MIT R76-4 (the program SIMQKE), with the correction made to the
 //! transform X of the motion under its envelope instead of A_k (N. C. Tsai 1972,
 //! "Spectrum-compatible motions for design purposes", Journal of the Engineering Mechanics
-//! Division, ASCE 98): it converges closer. A part of the phases does not converge, because the
+//! Division, ASCE 98): it converges closer. What a correction spreads beyond E is taken back, so
+//! that a short strong part stays short. A part of the phases does not converge, because the
 //! peak of a motion is an accident of its phases: several are drawn, and the closest is kept. The
 //! ground ends at rest where it began, as in [`noise`](super::noise).
 //!
@@ -43,6 +45,11 @@ const PERIODS_S: (f64, f64) = (0.04, 4.0);
 /// end.
 const MATCHED: usize = 64;
 const BEYOND: f64 = 1.4;
+/// Half a width of what the envelope is smoothed over: the time from 5 to 95 % of the Arias
+/// intensity by so much, which quiet before and after the strong part does not change, and at least
+/// so long (s).
+const WIDTHS: f64 = 30.0;
+const LEAST_WIDTH_S: f64 = 0.5;
 /// Samples that a given motion may have.
 const SAMPLES: (usize, usize) = (200, 400_000);
 
@@ -67,6 +74,8 @@ pub struct MotionTarget {
     fingerprint: u64,
     /// E at the samples, zero at the last.
     envelope: Vec<f64>,
+    /// Samples to each side that it is smoothed over.
+    half: usize,
     /// A_k up to half of the sampling frequency.
     amplitudes: Vec<f64>,
     fourier: Fourier,
@@ -102,6 +111,8 @@ impl MotionTarget {
             return Err(LikeError::Still { record: name() });
         }
         let dt = record.dt;
+        let duration_s = record.measures().duration_5_95_s;
+        let half = ((duration_s / WIDTHS).max(LEAST_WIDTH_S) / dt).ceil() as usize;
         let (shortest, longest) = band(dt, record.duration());
         let ratio = (longest / shortest).powf(1.0 / (MATCHED - 1) as f64);
         let promised = MATCHED;
@@ -114,11 +125,12 @@ impl MotionTarget {
         let fourier = Fourier::holding(samples);
         let spectrum = ResponseSpectrum::new(periods, dt);
         let mut target = Self {
-            given: (record.measures().duration_5_95_s, 0.0),
+            given: (duration_s, 0.0),
             name: name(),
             dt,
             fingerprint: record.fingerprint(),
-            envelope: envelope(record),
+            envelope: envelope(&record.accel, half),
+            half,
             amplitudes: amplitudes(record, &fourier, 0.5 / longest),
             wanted: spectrum.of(&record.accel),
             fourier,
@@ -167,16 +179,20 @@ impl MotionTarget {
         let mut accel = best.map_or_else(Vec::new, |(_, accel)| accel);
         accel.resize(accel.len() + (silence_s(p) / self.dt).ceil() as usize, 0.0);
         let name = format!("like-{}-{index:05}", self.name);
-        Record { name, dt: self.dt, accel, vertical: None, source: Source::Synthetic, made_of: None }
+        Record {
+            name,
+            dt: self.dt,
+            accel,
+            vertical: None,
+            source: Source::Synthetic,
+            made_of: None,
+        }
     }
 
     /// Whether a motion is about as long as the given one and moves the ground not much farther.
     fn fits(&self, accel: &[f64]) -> bool {
-        let (length, far) = self.given;
-        let made = Record::new("made", self.dt, accel.to_vec())
-            .map(|record| record.measures().duration_5_95_s);
-        made.is_ok_and(|made| LENGTHS.contains(&(made / length)))
-            && farthest(accel, self.dt) <= FARTHEST * far
+        let made = Record::new("made", self.dt, accel.to_vec());
+        made.is_ok_and(|made| likeness(self, &made).fits())
     }
 
     /// One draw of phases, corrected: its mismatch, and its accelerations.
@@ -245,7 +261,18 @@ impl MotionTarget {
         for (a, x) in accel.iter_mut().zip(transform) {
             *a = x.re;
         }
+        self.confine(accel);
         self.rest(accel);
+    }
+
+    /// What a correction spreads beyond the envelope is taken back.
+    fn confine(&self, accel: &mut [f64]) {
+        let there = envelope(accel, self.half);
+        for ((a, wanted), there) in accel.iter_mut().zip(&self.envelope).zip(there) {
+            if there > *wanted {
+                *a *= wanted / there;
+            }
+        }
     }
 
     /// The ground ends at rest where it began.
@@ -254,6 +281,29 @@ impl MotionTarget {
         accel[last] = 0.0;
         rest_at_end(accel, &self.envelope[..last], self.dt);
     }
+}
+
+/// How long a motion is and how far its ground goes, in units of the given motion's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Likeness {
+    /// From 5 to 95 % of the Arias intensity.
+    pub duration: f64,
+    /// Largest displacement.
+    pub displacement: f64,
+}
+
+impl Likeness {
+    /// Whether that is what is promised.
+    pub fn fits(self) -> bool {
+        LENGTHS.contains(&self.duration) && self.displacement <= FARTHEST
+    }
+}
+
+/// How like the given motion one is that was made for it.
+pub fn likeness(target: &MotionTarget, made: &Record) -> Likeness {
+    let (length, far) = target.given;
+    let displacement = farthest(&made.accel, made.dt) / far;
+    Likeness { duration: made.measures().duration_5_95_s / length, displacement }
 }
 
 /// Largest displacement of a ground that begins at rest (m).
@@ -277,11 +327,10 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Root of the squares, smoothed by three running means, which together are near a Gaussian; its
-/// largest is 1. Half a width of each: a fiftieth of the motion, at least half a second.
-fn envelope(record: &Record) -> Vec<f64> {
-    let half = ((record.duration() / 50.0).max(0.5) / record.dt).ceil() as usize;
-    let squares: Vec<f64> = record.accel.iter().map(|a| a * a).collect();
+/// Root of the squares, smoothed by three running means of `half` samples to each side, which
+/// together are near a Gaussian; its largest is 1.
+fn envelope(accel: &[f64], half: usize) -> Vec<f64> {
+    let squares: Vec<f64> = accel.iter().map(|a| a * a).collect();
     let smooth = (0..3).fold(squares, |values, _| {
         running_mean(&values, |i| (i.saturating_sub(half), i + half + 1))
     });

@@ -97,7 +97,7 @@ fn given(
     let target = MotionTarget::new(
         &duration_s.map_or(record.clone(), |duration| record.truncated(duration)),
     )?;
-    Ok(GivenMotion { target, notices })
+    Ok(GivenMotion { whole: record, target, notices })
 }
 
 fn of_pulse(

@@ -5,10 +5,11 @@ use std::{collections::HashMap, mem::discriminant};
 use super::{Measure, Plan};
 use crate::{
     SweepError,
-    motion::{MotionSource, SweepMotion, whole},
+    motion::{GivenMotion, MotionSource, SweepMotion, whole},
 };
 use cases::doubts::{Doubt, of_excitation};
 use files::message::{printable, significant};
+use rocking::synthetic::{Likeness, likeness};
 use strong_motion::{Notice, Record, excitation::Excitation, fnv1a};
 
 /// A sweep that was looked at.
@@ -30,6 +31,10 @@ const MOST_SCALE: f64 = 50.0;
 enum SweepDoubt {
     /// As in a run.
     Given(Doubt),
+    /// The vertical component of a motion that others are made like.
+    LikeHorizontal(Doubt),
+    /// Motions of those looked at that are not as they should be, and the farthest of them.
+    Unlike { motions: usize, of: usize, worst: Likeness },
     /// The levels scale a record by up to so much.
     Scaled { factor: f64 },
     /// The samples are those of another motion.
@@ -44,9 +49,28 @@ impl SweepDoubt {
         }
     }
 
+    /// What tells the worst of several that are alike.
+    fn severity(&self) -> f64 {
+        match self {
+            Self::Scaled { factor } => *factor,
+            Self::Given(Doubt::WeakMotion { pga_g, .. }) => -pga_g,
+            Self::Given(Doubt::PeakCut { pga_g, whole_g }) => whole_g / pga_g,
+            Self::Given(Doubt::StrongMotion { pga_g, .. }) => *pga_g,
+            Self::Given(Doubt::VerticalLeftOut { peak_g, horizontal_g }) => peak_g / horizontal_g,
+            _ => 0.0,
+        }
+    }
+
     fn message(&self) -> String {
         match self {
-            Self::Given(doubt) => doubt.message(),
+            Self::Given(doubt) | Self::LikeHorizontal(doubt) => doubt.message(),
+            Self::Unlike { motions, of, worst } => format!(
+                "of the first {of} motions made like it {motions} differ: the time from 5 to 95 % \
+                 of the Arias intensity is {} times its own at worst, and the ground goes up to {} \
+                 times as far",
+                significant(worst.duration, 3),
+                significant(worst.displacement, 3)
+            ),
             Self::Scaled { factor } => {
                 format!("the levels scale this record by up to {}", significant(*factor, 3))
             }
@@ -59,6 +83,16 @@ impl SweepDoubt {
         match self {
             Self::Scaled { .. } => "take it out, or give a stronger one".into(),
             Self::Same { .. } => "take one of them out".into(),
+            Self::LikeHorizontal(_) => {
+                "motions like it are horizontal; compare with the record itself (files and \
+                 vertical = \"auto\" under [records])"
+                    .into()
+            }
+            Self::Unlike { .. } => {
+                "use its strong part alone (duration_s under [records] cuts its end), or take \
+                 recorded motions (files)"
+                    .into()
+            }
             Self::Given(Doubt::VerticalLeftOut { .. }) => {
                 "write vertical = \"auto\" under [records], and compare".into()
             }
@@ -76,14 +110,20 @@ impl SweepDoubt {
     }
 }
 
-/// Doubts of many structures and records: the first of each kind, and how many are like it.
+/// Doubts of many structures and records: the worst of each kind, or the first of equal ones, and
+/// how many are like it.
 #[derive(Default)]
 struct DoubtsOfMany(Vec<(String, SweepDoubt, usize)>);
 
 impl DoubtsOfMany {
     fn add(&mut self, of: &str, doubt: SweepDoubt) {
         match self.0.iter_mut().find(|(_, first, _)| first.is_like(&doubt)) {
-            Some((.., more)) => *more += 1,
+            Some((worst_of, worst, more)) => {
+                *more += 1;
+                if doubt.severity() > worst.severity() {
+                    (*worst_of, *worst) = (of.to_string(), doubt);
+                }
+            }
             None => self.0.push((of.to_string(), doubt, 0)),
         }
     }
@@ -133,6 +173,7 @@ impl Plan {
                     text += &format!("{} {:x}", motion.name(), given.target.fingerprint());
                     if *index == 0 {
                         given.notices.iter().for_each(&mut *notice);
+                        self.doubt_given(given, &mut doubts);
                     }
                 }
                 SweepMotion::File(path) => {
@@ -144,7 +185,7 @@ impl Plan {
                         return Err(SweepError::Still { record: used.name });
                     }
                     let name = path.display().to_string();
-                    self.doubt(&name, record, &used, &mut doubts);
+                    self.doubt(record, &used, |doubt| doubts.add(&name, doubt));
                     let print = used.fingerprint();
                     text += &format!("{print:x}");
                     let up = used.vertical.as_ref().map(|up| up.as_record(used.dt).fingerprint());
@@ -154,9 +195,11 @@ impl Plan {
                 }
                 SweepMotion::ElCentro => {
                     text += &format!("{motion:?}");
-                    let record = self.making.used(Record::el_centro());
+                    let record = Record::el_centro();
+                    let used = self.making.used(record.clone());
                     let name = "el_centro".to_string();
-                    same(&mut seen, (record.fingerprint(), None), name, &mut doubts);
+                    self.doubt(record, &used, |doubt| doubts.add(&name, doubt));
+                    same(&mut seen, (used.fingerprint(), None), name, &mut doubts);
                 }
                 _ => text += &format!("{motion:?}"),
             }
@@ -165,14 +208,34 @@ impl Plan {
         Ok(InspectedSweep { hash, doubts: doubts.lines(), with_vertical })
     }
 
+    /// Doubts of a motion that others are made like, and of the first of these.
+    fn doubt_given(&self, given: &GivenMotion, doubts: &mut DoubtsOfMany) {
+        let used = self.making.used(given.whole.clone());
+        let name = format!("like {}", given.target.name());
+        self.doubt(given.whole.clone(), &used, |doubt| match doubt {
+            SweepDoubt::Given(left_out @ Doubt::VerticalLeftOut { .. }) => {
+                doubts.add(&name, SweepDoubt::LikeHorizontal(left_out));
+            }
+            other => doubts.add(&name, other),
+        });
+        let is_like = |motion: &&SweepMotion| matches!(motion, SweepMotion::Like(..));
+        let looked_at = self.motions.iter().filter(is_like).count().min(LOOKED_AT);
+        let made = parallel::map_range(0..looked_at, |i| {
+            likeness(&given.target, &given.target.motion(self.making.seed, i, self.making.p.0))
+        });
+        if let Some(unlike) = unlike(&made) {
+            doubts.add(&name, unlike);
+        }
+    }
+
     /// Doubts of a record, as it is read and as it is used.
-    fn doubt(&self, name: &str, whole: Record, used: &Record, doubts: &mut DoubtsOfMany) {
+    fn doubt(&self, whole: Record, used: &Record, mut add: impl FnMut(SweepDoubt)) {
         let most = self.levels.iter().copied().fold(0.0, f64::max);
         let factors = self.subjects.iter().map(|subject| self.factor(subject, most, used.pga()));
         let factor = factors.fold(0.0, f64::max);
         let scaled = self.measure != Measure::Scale && factor > MOST_SCALE;
         if scaled {
-            doubts.add(name, SweepDoubt::Scaled { factor });
+            add(SweepDoubt::Scaled { factor });
         }
         let excitation =
             Excitation { duration_s: self.making.duration_s, ..Excitation::whole(whole) };
@@ -183,8 +246,23 @@ impl Plan {
             _ => true,
         };
         let all = of_excitation(&excitation).into_iter().filter(counts);
-        all.for_each(|doubt| doubts.add(name, SweepDoubt::Given(doubt)));
+        all.for_each(|doubt| add(SweepDoubt::Given(doubt)));
     }
+}
+
+/// Motions made like a given one that are looked at before the sweep; each takes a second or so.
+const LOOKED_AT: usize = 10;
+
+/// What is told of motions that are longer or shorter than the given one, or go farther.
+fn unlike(made: &[Likeness]) -> Option<SweepDoubt> {
+    let differ: Vec<&Likeness> = made.iter().filter(|likeness| !likeness.fits()).collect();
+    let far = |ratio: f64| ratio.ln().abs();
+    let duration = differ.iter().map(|like| like.duration);
+    let worst = Likeness {
+        duration: duration.max_by(|a, b| far(*a).total_cmp(&far(*b)))?,
+        displacement: differ.iter().map(|like| like.displacement).fold(0.0, f64::max),
+    };
+    Some(SweepDoubt::Unlike { motions: differ.len(), of: made.len(), worst })
 }
 
 /// Whether a motion, by the numbers of its components, was there before.
@@ -197,5 +275,62 @@ fn same(
     match seen.get(&prints) {
         Some(other) => doubts.add(&name, SweepDoubt::Same { other: printable(other).into() }),
         None => _ = seen.insert(prints, name),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spec::SweepSource;
+
+    #[test]
+    fn of_several_records_the_worst_is_named() {
+        let mut doubts = DoubtsOfMany::default();
+        for (of, factor) in [("a", 60.0), ("b", 90.0), ("c", 70.0)] {
+            doubts.add(of, SweepDoubt::Scaled { factor });
+        }
+        assert_eq!(
+            doubts.lines(),
+            ["b: the levels scale this record by up to 90; take it out, or give a stronger one \
+              (and 2 more like it)"]
+        );
+    }
+
+    #[test]
+    fn motions_that_are_not_like_the_given_one_are_told_with_what_came_out() {
+        let like = |duration, displacement| Likeness { duration, displacement };
+        assert!(unlike(&[like(1.0, 1.0), like(1.2, 2.0)]).is_none());
+        let told = unlike(&[like(1.0, 1.0), like(1.62, 1.0), like(0.7, 3.0)]).unwrap().message();
+        assert!(told.starts_with("of the first 3 motions made like it 2 differ: "), "{told}");
+        assert!(told.contains("is 1.62 times its own at worst"), "{told}");
+        assert!(told.ends_with("the ground goes up to 3 times as far"), "{told}");
+    }
+
+    fn doubts_of(records: &str, levels: &str) -> Vec<String> {
+        let text = format!(
+            "[sweep]\nkind = 'fragility'\n[records]\n{records}\n[levels]\n{levels}\n\
+             [[structure]]\nkind = 'block'\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 1200.0\n"
+        );
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tuning/sweep.toml");
+        let plan = Plan::new(&SweepSource::parse(path.into(), text).unwrap()).unwrap();
+        plan.inspect(&mut |_| {}).unwrap().doubts
+    }
+
+    /// El Centro peaks at 2.2 s, at 0.313 g.
+    #[test]
+    fn el_centro_and_a_given_motion_are_doubted_as_files_are() {
+        let like = "like = 'records/IELC180.AT2'\nlike_count = 1";
+        for (records, name) in [("el_centro = true", "el_centro"), (like, "like IELC180")] {
+            let strong = doubts_of(records, "pga_g = 20.0");
+            assert!(
+                strong.iter().any(|d| d.starts_with(&format!("{name}: the levels scale this"))),
+                "{strong:?}"
+            );
+            let short = doubts_of(&format!("{records}\nduration_s = 1.99"), "scale = 1.0");
+            assert!(
+                short.iter().any(|d| d.starts_with(name) && d.contains("duration_s")),
+                "{short:?}"
+            );
+        }
     }
 }

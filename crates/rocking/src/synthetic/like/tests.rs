@@ -68,6 +68,46 @@ fn spectra_are_those_of_the_given_motion() {
     }
 }
 
+/// El Centro's 40 s between two minutes of noise of 0.2 % of its peak each.
+fn between_quiet() -> Record {
+    let ground = Record::el_centro();
+    let mut random = Random::new(1, 0);
+    let samples = (120.0 / ground.dt) as usize;
+    let weak = 0.002 * ground.pga();
+    let mut quiet = || (0..samples).map(|_| random.between(-weak, weak)).collect::<Vec<f64>>();
+    let accel = [quiet(), ground.accel.clone(), quiet()].concat();
+    Record::new("between-quiet", ground.dt, accel).unwrap()
+}
+
+/// Quiet before and after the strong part makes motions no longer, and not much more intense.
+#[test]
+fn quiet_parts_do_not_stretch_the_strong_one() {
+    let record = between_quiet();
+    let target = MotionTarget::new(&record).unwrap();
+    let given = record.measures();
+    for index in 0..4 {
+        let motion = target.motion(5, index, 2.0);
+        let like = likeness(&target, &motion);
+        let arias = motion.measures().arias_m_per_s / given.arias_m_per_s;
+        println!("{index}: {like:?} Arias x {arias:.3}");
+        assert!((0.9..1.1).contains(&like.duration) && like.fits(), "{index}: {like:?}");
+        assert!((0.8..1.6).contains(&arias), "{index}: {arias}");
+    }
+}
+
+/// One that is longer, or whose ground goes farther, does not fit.
+#[test]
+fn what_is_not_like_the_given_motion_is_told() {
+    let [ground, floor] = given();
+    let target = MotionTarget::new(&ground).unwrap();
+    let same = likeness(&target, &ground);
+    assert_eq!(same.duration, 1.0);
+    let longer = Likeness { duration: 1.3, displacement: 1.0 };
+    let farther = Likeness { duration: 1.0, displacement: 2.6 };
+    assert!(!longer.fits() && !farther.fits());
+    assert!(likeness(&target, &floor).duration != 1.0);
+}
+
 /// The time between 5 and 95 % of the Arias intensity within a fifth. The intensity itself is not
 /// promised: motions of one spectrum differ in it.
 #[test]
