@@ -22,8 +22,10 @@ use strong_motion::{Record, Source};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RecordOutcome {
-    /// Housner's body rocked, or toppled.
+    /// Housner's body rocked without overturning.
     Rocked,
+    /// Housner's body overturned.
+    Overturned,
     /// The record never lifts Housner's body: there is no history to compare with.
     NeverLifted,
     /// Housner's solution met its bound on work or a number that is not finite.
@@ -268,6 +270,7 @@ impl Validator {
             | housner::RockingOutcome::NotFinite { .. } => RecordOutcome::HousnerFailed,
             _ if overturned_fem.is_none() || !finite => RecordOutcome::FemFailed,
             housner::RockingOutcome::NeverMoved => RecordOutcome::NeverLifted,
+            _ if rocking.overturned().is_some() => RecordOutcome::Overturned,
             _ => RecordOutcome::Rocked,
         };
         let overturned_housner = rocking.overturned().is_some();
@@ -285,7 +288,8 @@ impl Validator {
         let changes = conditioning.map(|c| c.changes).unwrap_or_default();
         let moved = |k: usize| changes.width[k].max(changes.scale[k]);
         let changed = housner::solve(body, dt, accel, &changed);
-        let error = |x: f64| (outcome == RecordOutcome::Rocked && x.is_finite()).then_some(x);
+        let lifted = matches!(outcome, RecordOutcome::Rocked | RecordOutcome::Overturned);
+        let error = |x: f64| (lifted && x.is_finite()).then_some(x);
         let peaks = errors.peaks.errors();
         let forces = |x: f64| {
             let known = error(horizontal).and(error(x));

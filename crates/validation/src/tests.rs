@@ -79,7 +79,7 @@ fn a_body_that_topples_has_the_peak_of_one_that_lies_flat() {
         assert!(row.overturned_housner, "{row:?}");
         assert_eq!(
             (row.outcome, row.overturned_fem, row.peak_ratio_housner),
-            (RecordOutcome::Rocked, Some(true), flat)
+            (RecordOutcome::Overturned, Some(true), flat)
         );
         assert_eq!(row.peak_ratio_fem, Some(flat));
         assert!(row.agrees() && !row.comparable());

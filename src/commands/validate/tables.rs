@@ -133,7 +133,7 @@ fn cells(row: &Row) -> Vec<String> {
     let number = |x: Option<f64>, none: &str| x.map_or(none.to_string(), |x| format!("{x:.4}"));
     let yes = |x: bool| if x { "yes" } else { "no" }.to_string();
     let missing = match row.outcome {
-        RecordOutcome::Rocked => "-",
+        RecordOutcome::Rocked | RecordOutcome::Overturned => "-",
         RecordOutcome::NeverLifted => "never lifted",
         RecordOutcome::HousnerFailed => "Housner failed",
         RecordOutcome::FemFailed => "failed",
