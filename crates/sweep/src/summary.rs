@@ -27,8 +27,8 @@ pub fn head(plan: &Plan, gathered: u64) -> String {
             counted(all.len(), "restitution", "restitutions")
         });
     format!(
-        "{part}{} histories: {}, {}, {restitutions}, {}.",
-        plan.cells(),
+        "{part}{}: {}, {}, {restitutions}, {}.",
+        counted(plan.cells() as usize, "history", "histories"),
         counted(plan.subjects.len(), "structure", "structures"),
         counted(plan.motions.len(), "ground motion", "ground motions"),
         counted(plan.levels.len(), "level", "levels"),
@@ -279,22 +279,23 @@ pub fn rocking(plan: &Plan, ida: &Ida) -> Vec<String> {
     let [n, lifted, over, out] = counts;
     let share = |k: u64| 100.0 * k as f64 / n.max(1) as f64;
     said.push(format!(
-        "{:.1} % of the bodies are never lifted, {:.1} % rock and come to rest upright, {:.1} % \
-         overturn; {out} histories are left out.",
+        "Of {n} histories {:.1} % never lift the body, {:.1} % rock it without overturning it, \
+         {:.1} % overturn it; {out} more are left out.",
         share(n - lifted),
         share(lifted - over),
         share(over)
     ));
-    let overturned = ida.points.iter().filter(|p| 2 * p.overturned > p.n);
+    // as in the tables, where the median is infinite
+    let overturned = ida.points.iter().filter(|p| p.quantile(0.5) == Some(f64::INFINITY));
     let largest =
         overturned.max_by(|a, b| plan.subjects[b.subject].p.total_cmp(&plan.subjects[a.subject].p));
     if let Some(point) = largest {
         let subject = &plan.subjects[point.subject];
-        said.push(format!(
-            "The largest body that overturns: {} (1/p = {:.3} s).",
-            subject.name,
-            1.0 / subject.p
-        ));
+        let who = match plan.motions.len() {
+            1 => "The largest body that overturns",
+            _ => "The largest body that at least half of the motions overturn",
+        };
+        said.push(format!("{who}: {} (1/p = {:.3} s).", subject.name, 1.0 / subject.p));
     }
     said
 }
@@ -306,14 +307,16 @@ pub fn compare(comparison: &Comparison) -> Vec<String> {
     vec![format!(
         "Rigid against springs, {} histories ({} left out): both say the same of overturning in \
          {:.2} % (Housner alone overturns {}, springs alone {}); \
-         peaks of theta/alpha differ by {} (median) and {} (90 %), their distributions by {:.4} \
-         (KS); NRMSE of u {} (median), {} (90 %), of motions that cannot be predicted, too: tune \
-         validate tells these apart.",
+         where Housner's body lifts and neither overturns ({} histories) peaks of theta/alpha \
+         differ by {} (median) and {} (90 %); the distributions of all peaks differ by {:.4} (KS); \
+         NRMSE of u where Housner's body lifts {} (median), {} (90 %), of motions that cannot be \
+         predicted, too: tune validate tells these apart.",
         all.n,
         all.left_out,
         100.0 * all.agreement().unwrap_or(0.0),
         all.housner_only,
         all.fem_only,
+        all.difference.count(),
         number(all.difference.quantile(0.5)),
         number(all.difference.quantile(0.9)),
         all.ks_distance(),
