@@ -131,7 +131,7 @@ fn structures_of_one_shape_are_told_apart_by_their_restitution() {
     same.does_not_say("equation 2");
     own.shows("ida.svg", "block R 1.031 m, alpha 0.245, e = 0.72");
     SweepRun::new(&spec("restitution = [0.9, 0.8]"), "")
-        .shows("ida.svg", "Peak rotation against PGA [g], 1 motions, e = 0.9");
+        .shows("ida.svg", "Peak rotation against PGA [g], 1 motion, e = 0.9");
 }
 
 #[test]
@@ -202,4 +202,46 @@ fn a_summary_tells_of_vertical_motion_and_of_friction() {
     across.says("  It lifts at PGA = g tan(alpha) = 0.250 g.");
     across.says(friction);
     across.does_not_say("vertical");
+}
+
+/// El Centro at five times overturns a block that lifts at 0.25 g, a push of 0.01 g does not lift
+/// it: half of the motions overturn it, which the table's median tells as inf.
+#[test]
+fn a_rocking_sweep_counts_histories_and_names_what_half_of_the_motions_overturn() {
+    let spec = format!(
+        "[sweep]\nkind = \"rocking\"\n{BLOCK}[records]\nel_centro = true\n\
+         files = [\"record.csv\"]\nunits = \"m/s^2\"\n[levels]\nscale = [5.0]\n"
+    );
+    let ran = SweepRun::new(&spec, &record(|t| 0.02 * (4.0 * t).sin()));
+    ran.says(
+        "Of 2 histories 50.0 % never lift the body, 0.0 % rock it without overturning it, 50.0 %",
+    );
+    ran.says("The largest body that at least half of the motions overturn: block R 1.031 m");
+    ran.does_not_say("rest");
+    assert_eq!(ran.column("rocking.csv", "peak_50"), [f64::INFINITY]);
+}
+
+/// Six structures have a panel, and at most thirty motions a line.
+#[test]
+fn figures_tell_how_many_structures_and_motions_they_show() {
+    let blocks: String = (0..7).map(|i| BLOCK.replace("= 2.0", &format!("= 2.{i}"))).collect();
+    let spec = format!(
+        "[sweep]\nkind = \"fragility\"\n{blocks}[records]\nearthquakes = 31\n[levels]\n\
+         pga_g = {{ from = 0.2, to = 2.0, count = 8 }}\n"
+    );
+    let ran = SweepRun::new(&spec, "");
+    ran.shows(
+        "ida.svg",
+        "Peak rotation against PGA [g], 31 motions (16 as grey lines), 6 of 7 structures",
+    );
+    ran.shows("fragility_structures.svg", "Overturning of 6 of 7 structures, 31 motions, Housner");
+}
+
+#[test]
+fn a_case_given_as_a_sweep_is_named_as_what_it_is() {
+    let dir = TempDir::new().unwrap();
+    fs::write(dir.path().join("case.toml"), BLOCK.replace("[[structure]]", "[structure]")).unwrap();
+    let ran = tune(dir.path(), &["sweep", "case.toml", "--out", "out", "--quiet"]);
+    let told = String::from_utf8_lossy(&ran.stderr);
+    assert!(told.contains("this is a case, not a sweep; run it as `tune run case.toml`"), "{told}");
 }

@@ -71,7 +71,7 @@ pub fn fragility(plan: &Plan, fragility: &Fragility, path: &Path) -> Result<(), 
             false => format!("{name}: no fit"),
         };
         let names: Vec<String> = names.iter().enumerate().map(named).collect();
-        let title = format!("{what}, {} motions, {model}{e}", plan.motions.len());
+        let title = format!("{what}, {}, {model}{e}", motions(plan));
         let label = probability_label(fragility);
         let data = probability::FragilityFigure {
             title: &title,
@@ -98,7 +98,7 @@ pub fn fragility(plan: &Plan, fragility: &Fragility, path: &Path) -> Result<(), 
         member.subject.filter(|subject| overturning && *subject < shown)
     };
     let each = path.with_file_name("fragility_structures.png");
-    save("Overturning of each structure".to_string(), &names, &alone, &each)?;
+    save(overturning_of(shown, plan), &names, &alone, &each)?;
     Ok(())
 }
 
@@ -107,6 +107,36 @@ fn measure_label(index: usize) -> String {
     let (name, unit) = MEASURES[index];
     let unit = if unit == "-" { String::new() } else { format!(" [{unit}]") };
     format!("{}{unit}", name.replace("alpha", "α"))
+}
+
+/// The structures whose overturning a figure shows.
+fn overturning_of(shown: usize, plan: &Plan) -> String {
+    match plan.subjects.len() {
+        all if all > shown => format!("Overturning of {shown} of {all} structures"),
+        _ => "Overturning of each structure".to_string(),
+    }
+}
+
+/// How many structures a figure shows, where these are not all.
+fn of_structures(shown: usize, plan: &Plan) -> String {
+    match plan.subjects.len() {
+        all if all > shown => format!(", {shown} of {all} structures"),
+        _ => String::new(),
+    }
+}
+
+fn motions(plan: &Plan) -> String {
+    let all = plan.motions.len();
+    format!("{all} {}", if all == 1 { "motion" } else { "motions" })
+}
+
+/// How many motions have lines of their own, where these are not all.
+fn grey_lines(shown: usize, all: usize) -> String {
+    match shown {
+        0 => String::new(),
+        shown if shown < all => format!(" ({shown} as grey lines)"),
+        _ => String::new(),
+    }
 }
 
 /// The restitution that a figure shows, where a sweep has several: the first.
@@ -200,10 +230,13 @@ pub fn ida(plan: &Plan, ida: &Ida, path: &Path) -> Result<(), CommandError> {
     if subjects.is_empty() {
         return Ok(());
     }
+    let lines = subjects.iter().map(|subject| subject.records.len()).max().unwrap_or(0);
     let title = format!(
-        "Peak rotation against {}, {} motions{}",
+        "Peak rotation against {}, {}{}{}{}",
         level_label(plan),
-        plan.motions.len(),
+        motions(plan),
+        grey_lines(lines, plan.motions.len()),
+        of_structures(subjects.len(), plan),
         restitution_shown(plan)
     );
     Ok(levels::draw(&levels::IdaFigure {
@@ -256,6 +289,7 @@ pub fn overturning(plan: &Plan, table: &SweepTable, path: &Path) -> Result<(), C
     let (low, high) = (plan.levels[0], plan.levels[plan.levels.len() - 1]);
     let e = table.reals("restitution");
     let mut spectra = Vec::new();
+    let count = spectra_of(plan).count();
     for (index, name, kind) in spectra_of(plan).take(PANELS) {
         let which = if plan.subjects.len() > 1 {
             format!("\n{}", plan.subjects[index].name)
@@ -293,6 +327,10 @@ pub fn overturning(plan: &Plan, table: &SweepTable, path: &Path) -> Result<(), C
     let title = match &plan.subjects[..] {
         [one] => format!("Pulses that overturn: {}", one.name),
         all => format!("Pulses that overturn, {} structures", all.len()),
+    };
+    let title = match count {
+        all if all > PANELS => format!("{title}, {PANELS} of {all} spectra"),
+        _ => title,
     } + &restitution_shown(plan);
     let amplitudes = (0.9 * low, high);
     let data =
