@@ -23,8 +23,8 @@ use run_folder::{
 /// Options of `tune housner`.
 #[derive(Debug, Args)]
 pub struct HousnerOptions {
-    /// Structure and record; the paper's A-frame (all mass at the apex, I_cg = 0) on El Centro
-    /// unless given
+    /// Structure and record; the paper's A-frame (all mass near the apex, I_cg = 1e-5 m R^2) on El
+    /// Centro unless given
     case: Option<PathBuf>,
     #[command(flatten)]
     record: RecordOptions,

@@ -80,7 +80,7 @@ fn columns_that_are_no_record() {
         ("0,0.1\n0,0.2\n0,0.1\n", "line 2: the time step is 0.0 s"),
         ("nan,0.1\nnan,0.2\n", "line 1: 'nan'"),
         ("0,0.1,3\n0.01,0.2,3\n0.02,1,3\n", "3 columns"),
-        ("0,0.1\n0.01\n0.02,1\n", "line 2: 1 columns"),
+        ("0,0.1\n0.01\n0.02,1\n", "line 2: 1 column where"),
     ] {
         run_record("a.csv", text, "--units g", &[word]);
     }

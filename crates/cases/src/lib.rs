@@ -56,6 +56,7 @@ use fixed_steps::FixedStepProgram;
 use frequency_response::{bounds::Bounds, target::Target};
 pub use limits::Limits;
 pub use limits::{ACCURACY, MAX_HZ, PEAKS};
+pub use located::in_keys;
 use program::ProgramSection;
 pub use record::NO_MOTION;
 use record::RecordSection;

@@ -68,8 +68,8 @@ fn key_of(error: &RecordError, text: &str) -> Option<&'static str> {
     special.or(Some("record.file"))
 }
 
-/// Options as keys.
-pub(super) fn in_keys(message: &str) -> String {
+/// A message of a record that names options, in the keys of files.
+pub fn in_keys(message: &str) -> String {
     KEYS.iter()
         .fold(message.to_owned(), |message, (option, key)| message.replace(option, key))
         .replace("--dt", "dt_s")

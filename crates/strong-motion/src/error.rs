@@ -52,8 +52,9 @@ pub enum RecordError {
     )]
     IsCase { file: String },
     #[error(
-        "{file}, line {line}: {found} columns where the lines before have {expected}; the line is \
-         cut or merged: repair it"
+        "{file}, line {line}: {} where the lines before have {expected}; the line is cut or \
+         merged: repair it",
+        columns(*.found)
     )]
     Ragged { file: String, line: usize, found: usize, expected: usize },
     #[error(
@@ -77,9 +78,10 @@ pub enum RecordError {
     )]
     BadHeader { file: String, line: usize, text: String },
     #[error(
-        "{file}, line {line}: the file ends after {found} samples but its header (line \
-         {header_line}) says NPTS {npts}; the file is cut or damaged: fetch it again or correct \
-         NPTS"
+        "{file}, line {line}: the file {} its header (line {header_line}) says NPTS {npts}; {}: \
+         fetch it again or correct NPTS",
+        held(*.found, *.npts).0,
+        held(*.found, *.npts).1
     )]
     Count { file: String, line: usize, found: usize, header_line: usize, npts: u64 },
     #[error(
@@ -191,4 +193,37 @@ pub enum RecordError {
          acceleration, or fetch the corrected file"
     )]
     Counts { file: String },
+}
+
+/// What a file holds that does not have the samples its header tells, and what that says of it.
+fn held(found: usize, npts: u64) -> (String, &'static str) {
+    if found as u64 > npts {
+        (format!("holds {found} samples and"), "one of them is wrong")
+    } else {
+        (format!("ends after {found} samples but"), "the file is cut or damaged")
+    }
+}
+
+fn columns(n: usize) -> String {
+    format!("{n} {}", if n == 1 { "column" } else { "columns" })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_with_more_samples_than_it_tells_is_not_called_cut() {
+        let told = |found| {
+            let (file, line, header_line) = ("a.AT2".to_string(), 9, 4);
+            RecordError::Count { file, line, found, header_line, npts: 3995 }.to_string()
+        };
+        assert_eq!(
+            told(3996),
+            "a.AT2, line 9: the file holds 3996 samples and its header (line 4) says NPTS 3995; \
+             one of them is wrong: fetch it again or correct NPTS"
+        );
+        assert!(told(3994).contains("the file ends after 3994 samples but its header (line 4)"));
+        assert!(told(3994).contains("the file is cut or damaged"));
+    }
 }

@@ -101,7 +101,11 @@ fn every_damage_is_an_error_of_one_line_with_place_and_remedy() {
             at2.replace(".3 .4", ".3"),
             "line 6: the file ends after 3 samples but its header (line 4) says NPTS 4",
         ),
-        ("a.at2", at2.replace(".3 .4", ".3 .4 .5"), "line 6: the file ends after 5 samples"),
+        (
+            "a.at2",
+            at2.replace(".3 .4", ".3 .4 .5"),
+            "line 6: the file holds 5 samples and its header",
+        ),
         ("a.at2", at2.replace("NPTS= 4,", "NPTS= 999999999999,"), "says NPTS 999999999999"),
         (
             "a.at2",
@@ -146,9 +150,9 @@ fn every_damage_is_an_error_of_one_line_with_place_and_remedy() {
         (
             "a.csv",
             "t,a [g]\n0.00,.1\n0.01\n".into(),
-            "line 3: 1 columns where the lines before have 2",
+            "line 3: 1 column where the lines before have 2",
         ),
-        ("a.csv", "t,a [g]\n0.00,.1\n0.01,\n".into(), "line 3: 1 columns"),
+        ("a.csv", "t,a [g]\n0.00,.1\n0.01,\n".into(), "line 3: 1 column"),
         ("a.csv", "t,a [g],b\n0.00,.1,1\n".into(), "line 2: 3 columns"),
         ("a.csv", "t;a [g]\n0,00;0,1\n0,01;0,2\n".into(), "line 2: '0,00;0,1' has decimal commas"),
         ("a.csv", "t a [g]\n0,00 0,1\n".into(), "line 2: '0,00 0,1' has decimal commas"),

@@ -9,6 +9,7 @@ use crate::GRAVITY;
 
 /// Unit of acceleration of a record's numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "String")]
 pub enum Units {
     /// Gravity, 9.81 m/s2.
     #[serde(rename = "g")]
@@ -17,7 +18,7 @@ pub enum Units {
     #[serde(rename = "m/s2")]
     MetrePerSecond2,
     /// cm/s2, the gal.
-    #[serde(rename = "cm/s2", alias = "gal")]
+    #[serde(rename = "cm/s2")]
     CentimetrePerSecond2,
     /// mm/s2.
     #[serde(rename = "mm/s2")]
@@ -51,6 +52,14 @@ impl fmt::Display for Units {
             Self::CentimetrePerSecond2 => "cm/s2",
             Self::MillimetrePerSecond2 => "mm/s2",
         })
+    }
+}
+
+impl TryFrom<String> for Units {
+    type Error = UnitsError;
+
+    fn try_from(text: String) -> Result<Self, UnitsError> {
+        text.parse()
     }
 }
 
@@ -227,6 +236,10 @@ mod tests {
         for units in [G, M, Cm, Mm] {
             assert_eq!(units.to_string().parse(), Ok(units));
             assert_eq!(serde_json::to_string(&units).unwrap(), format!("\"{units}\""));
+        }
+        // files take what the command line takes
+        for (text, units) in [("m/s^2", M), ("gal", Cm), ("G", G)] {
+            assert_eq!(serde_json::from_str::<Units>(&format!("\"{text}\"")).unwrap(), units);
         }
         assert_eq!("gal".parse(), Ok(Cm));
         assert_eq!("M/S^2".parse(), Ok(M));

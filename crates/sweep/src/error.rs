@@ -15,9 +15,11 @@ pub enum SweepError {
     Read { path: String, source: std::io::Error },
     #[error(transparent)]
     Case(#[from] CaseError),
+    #[error("{path}: this is a case, not a sweep; run it as `tune run {path}`")]
+    IsCase { path: String },
     #[error("{path}, line {line}: {message}")]
     Spec { path: String, line: usize, message: String },
-    #[error(transparent)]
+    #[error("{}", in_keys(.0))]
     Record(#[from] RecordError),
     #[error(transparent)]
     Like(#[from] LikeError),
@@ -46,4 +48,38 @@ pub enum SweepError {
          given"
     )]
     NoSweep { folder: String },
+}
+
+/// An error of a record in the keys of `[records]`.
+fn in_keys(error: &RecordError) -> String {
+    cases::in_keys(&error.to_string())
+        .replace("with column, a number or a name (", "with component, \"column 2\" or a name (")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_of_records_name_the_keys_of_a_sweep_file() {
+        let file = || "a.csv".to_string();
+        let columns = RecordError::TooManyColumns {
+            file: file(),
+            line: 1,
+            found: 3,
+            columns: "column 2, column 3".into(),
+        };
+        let step = RecordError::NoStep { file: file() };
+        for (error, keys) in [
+            (columns, "with component, \"column 2\" or a name (column 2, column 3); bare"),
+            (step, "the time step is not in the file; give dt_s"),
+            (RecordError::NoUnits { file: file() }, "give units g, m/s2"),
+        ] {
+            let told = SweepError::Record(error).to_string();
+            assert!(
+                told.contains(keys) && !told.contains("--") && !told.contains("[record]"),
+                "{told}"
+            );
+        }
+    }
 }

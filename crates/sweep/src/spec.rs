@@ -196,6 +196,12 @@ pub(crate) struct SweepSource {
     pub spec: Spec,
 }
 
+/// Whether a file that is no sweep is a case: one structure, and nothing of a sweep.
+fn is_case(text: &str) -> bool {
+    let has = |section: &str| text.lines().any(|line| line.trim().starts_with(section));
+    has("[structure]") && !has("[sweep]")
+}
+
 impl SweepSource {
     /// Read a sweep file.
     ///
@@ -215,6 +221,7 @@ impl SweepSource {
     pub(crate) fn parse(path: String, text: String) -> Result<Self, SweepError> {
         match toml::from_str(&text) {
             Ok(spec) => Ok(Self { path, text, spec }),
+            Err(_) if is_case(&text) => Err(SweepError::IsCase { path }),
             Err(e) => Err(elastic::refusal(&path, &text)
                 .unwrap_or_else(|| parse_error(&path, &text, &e).into())),
         }

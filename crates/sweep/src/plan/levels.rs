@@ -44,6 +44,12 @@ pub(super) fn levels(
         return Err(source.at(section, "levels: give one of scale, pga_g and pga_over_uplift"));
     };
     let mut levels = source.all_within(name, values, 1e-6, most)?;
+    let mut sorted = levels.clone();
+    sorted.sort_by(f64::total_cmp);
+    if let Some(pair) = sorted.windows(2).find(|pair| pair[0] == pair[1]) {
+        let message = format!("{name} has {} twice, which counts twice; take one out", pair[0]);
+        return Err(source.at(values, message));
+    }
     if kind == SweepKind::Overturning {
         if measure != Measure::PgaOverUplift || levels.len() < 2 {
             let remedy = "an overturning spectrum scans pga_over_uplift; give a range, as { from = \
@@ -53,4 +59,22 @@ pub(super) fn levels(
         levels.sort_by(f64::total_cmp);
     }
     Ok((measure, levels))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_level_that_is_there_twice_is_refused() {
+        let of = |values: &str| {
+            let text = format!("[sweep]\nkind = 'fragility'\n[levels]\nscale = {values}\n");
+            levels(&SweepSource::parse("a.toml".into(), text).unwrap(), SweepKind::Fragility)
+        };
+        assert_eq!(of("[1.0, 0.5]").unwrap().1, [1.0, 0.5]);
+        assert_eq!(
+            of("[1.0, 0.5, 1.0]").unwrap_err().to_string(),
+            "a.toml, line 4: scale has 1 twice, which counts twice; take one out"
+        );
+    }
 }
