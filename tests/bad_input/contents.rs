@@ -135,7 +135,7 @@ fn values_of_the_wrong_type() {
         ("[record]\nduration_s = 1e9\n", "duration_s is 1000000000.0"),
         ("[record]\ndt_s = 0.01\n", "[record] lacks file"),
         ("[record]\nunits = \"g\"\n", "[record] lacks file"),
-        ("[record]\nunits = \"ft\"\n", "line 7: units is \"ft\"; known are "),
+        ("[record]\nunits = \"ft\"\n", "line 7: unit 'ft' is not known; use g, m/s2"),
         ("[record]\nfile = \".\"\n", "is a folder"),
         ("restitution = 0.5\nrestitution_ratio = 0.5\n", "not both"),
         ("[bounds]\nf_min = 2.0\nf_max = 1.0\n", "nothing lies between f_min"),

@@ -117,10 +117,9 @@ fn bin(x: f64) -> i32 {
     (x.ln() / BIN).floor() as i32
 }
 
-/// The middle of a bin, with the digits that it has.
-fn middle(bin: i32) -> f64 {
-    let middle = ((f64::from(bin) + 0.5) * BIN).exp();
-    format!("{middle:.3e}").parse().unwrap_or(middle)
+/// The four digits that the middle of a bin has.
+fn four_digits(x: f64) -> f64 {
+    format!("{x:.3e}").parse().unwrap_or(x)
 }
 
 impl Histogram {
@@ -158,7 +157,11 @@ impl Histogram {
         let (low, between) = (rank.floor(), rank.fract());
         let x = self.ranked(low as u64);
         let above = if between == 0.0 { x } else { self.ranked(low as u64 + 1) };
-        Some(if x == above { x } else { x + between * (above - x) })
+        let found = if x == above { x } else { x + between * (above - x) };
+        Some(match self.numbers {
+            Numbers::Binned(_) => four_digits(found),
+            Numbers::Kept(_) => found,
+        })
     }
 
     /// The number of a rank from zero, in ascending order.
@@ -176,7 +179,7 @@ impl Histogram {
                     below += **count;
                     rank < below
                 });
-                found.map_or(f64::INFINITY, |(bin, _)| middle(*bin))
+                found.map_or(f64::INFINITY, |(bin, _)| ((f64::from(*bin) + 0.5) * BIN).exp())
             }
         }
     }
