@@ -33,11 +33,16 @@ use strong_motion::{Record, Source, largest_magnitude};
 const LIKE: u64 = 1 << 62;
 /// Draws of phases at most, and the mismatch of the spectrum at which one is good enough.
 const DRAWS: u64 = 24;
-/// Mismatch with which no further draw is made: ln of the ratio of spectra, at any period.
+/// Mismatch with which no further draw is made: ln of the ratio of spectra, at any period; of the
+/// first draws, and of those that follow.
 const ENOUGH: f64 = 0.12;
+const ENOUGH_LATER: f64 = 0.18;
+const FIRST_DRAWS: u64 = 8;
 const GOOD: f64 = 0.06;
-/// Corrections of a draw, and the largest factor of one.
+/// Corrections of a draw, those without a closer spectrum after which it is given up, and the
+/// largest factor of one.
 const CORRECTIONS: usize = 24;
+const IN_VAIN: usize = 4;
 const LARGEST_FACTOR: f64 = 2.0;
 /// Periods that are matched (s): from three time steps, to a tenth of the motion.
 const PERIODS_S: (f64, f64) = (0.04, 4.0);
@@ -172,7 +177,8 @@ impl MotionTarget {
             if best.as_ref().is_none_or(|(least, _)| mismatch < *least) {
                 best = Some((mismatch, accel));
             }
-            if best.as_ref().is_some_and(|(least, _)| *least < ENOUGH) {
+            let enough = if draw + 1 < FIRST_DRAWS { ENOUGH } else { ENOUGH_LATER };
+            if best.as_ref().is_some_and(|(least, _)| *least < enough) {
                 break;
             }
         }
@@ -207,14 +213,16 @@ impl MotionTarget {
         self.rest(&mut accel);
         let offset = mean(&self.missing(&accel)).exp();
         accel.iter_mut().for_each(|a| *a *= offset);
-        let (mut least, mut kept) = (f64::INFINITY, accel.clone());
+        let (mut least, mut kept, mut in_vain) = (f64::INFINITY, accel.clone(), 0);
         for _ in 0..CORRECTIONS {
             let missing = self.missing(&accel);
             let mismatch = largest_magnitude(&missing[..self.promised]);
             if mismatch < least {
-                (least, kept) = (mismatch, accel.clone());
+                (least, kept, in_vain) = (mismatch, accel.clone(), 0);
+            } else {
+                in_vain += 1;
             }
-            if least < GOOD {
+            if least < GOOD || in_vain == IN_VAIN {
                 break;
             }
             self.correct(&mut accel, &missing, &mut transform);
