@@ -239,9 +239,8 @@ fn figures_tell_how_many_structures_and_motions_they_show() {
 
 #[test]
 fn a_case_given_as_a_sweep_is_named_as_what_it_is() {
-    let dir = TempDir::new().unwrap();
-    fs::write(dir.path().join("case.toml"), BLOCK.replace("[[structure]]", "[structure]")).unwrap();
-    let ran = tune(dir.path(), &["sweep", "case.toml", "--out", "out", "--quiet"]);
-    let told = String::from_utf8_lossy(&ran.stderr);
+    let case = BLOCK.replace("[[structure]]", "[structure]");
+    let told =
+        TestFolder::with(&[("case.toml", &case)]).refuses("sweep case.toml --out out --quiet");
     assert!(told.contains("this is a case, not a sweep; run it as `tune run case.toml`"), "{told}");
 }
