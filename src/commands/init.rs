@@ -153,21 +153,39 @@ scale = 1.0              # factor on the acceleration, with a decimal point
 accuracy = 0.002         # of the history against the reference's, normalised: sqrt(sum (u - \
                     u_r)^2 / sum u_r^2)
 # max_omega_hz = 160.0   # stiffest springs allowed, Omega_n / 2 pi; left out: no limit
+
+# [program]              # springs for a program with steps of one size, too
+# for = \"sap2000\"        # or etabs, opensees-even
+# step_s = 0.001
+";
+
+const FRICTION: &str = "
+# [friction]             # feet slide; left out: they hold; not with a damper or tendon
+# coefficient = 0.5
+";
+
+const MEMBERS: &str = "
+# [damper]               # a dashpot from the ground to each foot or corner, vertical
+# c_ns_per_m = 1e5
+
+# [tendon]               # from the mass to the ground midway between the feet or corners
+# stiffness_n_per_m = 1e6
+# pretension_n = 1e3
 ";
 
 /// The text for a shape.
 fn text(shape: StructureShape) -> String {
-    let (structure, restitution) = match shape {
+    let (structure, restitution, friction) = match shape {
         StructureShape::Sweep => return SWEEP.into(),
-        StructureShape::AFrame => (AFRAME, RESTITUTION),
-        StructureShape::Block => (BLOCK, RESTITUTION),
-        StructureShape::Pier => (PIER, ""),
-        StructureShape::ElasticAFrame => (ELASTIC_AFRAME, ""),
-        StructureShape::Frame => (FRAME, ""),
+        StructureShape::AFrame => (AFRAME, RESTITUTION, FRICTION),
+        StructureShape::Block => (BLOCK, RESTITUTION, FRICTION),
+        StructureShape::Pier => (PIER, "", ""),
+        StructureShape::ElasticAFrame => (ELASTIC_AFRAME, "", ""),
+        StructureShape::Frame => (FRAME, "", ""),
     };
     format!(
         "# A case for `tune run`: what rocks, on which ground motion, how accurately.\n\n\
-         {structure}{restitution}{REST}"
+         {structure}{restitution}{REST}{friction}{MEMBERS}"
     )
 }
 
@@ -210,8 +228,16 @@ mod tests {
     #[test]
     fn what_is_commented_out_can_be_used() {
         for shape in [StructureShape::AFrame, StructureShape::Block] {
-            let case = Case::parse("case.toml", &used(shape)).unwrap();
-            assert_eq!((case.restitution, case.tuning.max_omega_hz), (0.9, Some(160.0)));
+            let used = used(shape);
+            // friction, or a damper and a tendon
+            let [held, slipping] = [&["[friction]"][..], &["[damper]", "[tendon]"]].map(|out| {
+                let stays = |part: &&str| !out.iter().any(|name| part.starts_with(name));
+                let parts: Vec<&str> = used.split_inclusive("\n\n").filter(stays).collect();
+                Case::parse("case.toml", &parts.concat()).unwrap()
+            });
+            assert_eq!((held.restitution, held.tuning.max_omega_hz), (0.9, Some(160.0)));
+            assert!(held.members.damper.is_some() && held.members.tendon.is_some());
+            assert!(slipping.members.friction.is_some() && slipping.program.is_some());
         }
         for shape in [StructureShape::Pier, StructureShape::ElasticAFrame, StructureShape::Frame] {
             let used = used(shape);

@@ -63,7 +63,7 @@ const OF_KINDS: [(&str, &[&str]); 3] = [
 const SECTION: &str = "structure";
 const HEIGHT: &str = "height_m";
 /// Keys of the other sections that could stand in the wrong one.
-const OF_SECTIONS: [(&str, &[&str]); 2] = [
+const OF_SECTIONS: [(&str, &[&str]); 6] = [
     (
         "record",
         &[
@@ -91,6 +91,10 @@ const OF_SECTIONS: [(&str, &[&str]); 2] = [
             "candidates",
         ],
     ),
+    ("friction", &["coefficient"]),
+    ("damper", &["c_ns_per_m"]),
+    ("tendon", &["stiffness_n_per_m", "pretension_n"]),
+    ("program", &["for", "step_s", "integrator", "substeps"]),
 ];
 /// A key of rigid bodies alone.
 const RIGID: &str = "total_height_m";
@@ -143,6 +147,10 @@ impl UnknownKey {
             OF_SECTIONS.iter().find(|(_, keys)| keys.contains(&self.key.as_str()))
         {
             return format!("put it under [{section}]");
+        }
+        if let Some((section, keys)) = OF_SECTIONS.iter().find(|(section, _)| *section == self.key)
+        {
+            return format!("it is a section: [{section}], with {}", keys.join(", "));
         }
         match &self.near {
             Some(near) if other_unit(&self.key, near) => {
@@ -245,9 +253,13 @@ mod tests {
             let error = toml::from_str::<T>("\"\" = 0").err().unwrap();
             UnknownKey::of(error.message().lines().next().unwrap()).unwrap().known
         }
-        let [(_, record), (_, tuning)] = OF_SECTIONS;
-        assert_eq!(known::<super::super::record::RecordSection>(), record);
-        assert_eq!(known::<super::super::Tuning>(), tuning);
+        let of = |section: &str| OF_SECTIONS.iter().find(|(name, _)| *name == section).unwrap().1;
+        assert_eq!(known::<super::super::record::RecordSection>(), of("record"));
+        assert_eq!(known::<super::super::Tuning>(), of("tuning"));
+        assert_eq!(known::<super::super::program::ProgramSection>(), of("program"));
+        assert_eq!(known::<rocking::members::Friction>(), of("friction"));
+        assert_eq!(known::<rocking::members::Damper>(), of("damper"));
+        assert_eq!(known::<rocking::members::Tendon>(), of("tendon"));
     }
 
     #[test]
@@ -277,6 +289,9 @@ mod tests {
             let scale = format!("unknown field `scale`, expected one of {known}");
             assert_eq!(UnknownKey::of(&scale).unwrap().advice(), "put it under [record]");
         }
+        let friction = "unknown field `friction`, expected one of `height_m`, `width_m`";
+        let advice = "it is a section: [friction], with coefficient";
+        assert_eq!(UnknownKey::of(friction).unwrap().advice(), advice);
         let mass = "unknown field `mass_kg`, expected one of `file`, `scale`";
         assert_eq!(UnknownKey::of(mass).unwrap().advice(), "put it under [structure]");
     }

@@ -350,7 +350,7 @@ pub fn largest(sways: &[[Sway; 2]], k: usize, of: fn(&Sway) -> &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    /// Springs are compared over 12.2 s, a deck over 4.42 s: this is how far the motion is foretold.
+    /// Springs are compared over 12.2 s, a deck over 4.42 s: so far the motion is foretold.
     #[test]
     fn a_motion_is_foretold_for_as_long_as_its_deck_is_judged() {
         let on = OnRecord {
