@@ -78,8 +78,8 @@ impl Finding {
             | Self::HistoriesUnfinished { .. }
             | Self::NearMotionsLeftOut { .. } => return self.remedy_of_search(),
             Self::Sliding { .. } => {
-                "give a shear key, or of a rigid body [friction] in the case: feet do not slide \
-                 here; --friction sets what the ground offers"
+                "give a shear key, or [friction] in the case: feet do not slide here; --friction \
+                 sets what the ground offers"
             }
             Self::TooStocky { restitution, friction_needed, .. } => {
                 of_landing(*restitution, *friction_needed)
@@ -105,6 +105,9 @@ impl Finding {
             }
             Self::AccuracyNotMeasured | Self::HistoriesUnfinished { left_out: false, .. } => {
                 "judge the springs on records of your own"
+            }
+            Self::Sliding { .. } => {
+                "give a shear key: feet do not slide here; --friction sets what the ground offers"
             }
             _ => return self.remedy(),
         };
