@@ -78,8 +78,7 @@ impl Finding {
             | Self::HistoriesUnfinished { .. }
             | Self::NearMotionsLeftOut { .. } => return self.remedy_of_search(),
             Self::Sliding { .. } => {
-                "give a shear key, or [friction] in the case: feet do not slide here; --friction \
-                 sets what the ground offers"
+                "give a shear key, or let feet slide: [friction]; --friction sets the ground's"
             }
             Self::TooStocky { restitution, friction_needed, .. } => {
                 of_landing(*restitution, *friction_needed)
