@@ -19,6 +19,9 @@ use strong_motion::Record;
 /// Stiffness of the arms that stand for a rigid footing, over the stiffest gap spring k1: as for a
 /// rigid body's legs.
 const ARM_STIFFNESS: f64 = 4.0;
+/// The same on the softer springs of steps of one size, whose tolerance leaves the digits for it:
+/// on arms as soft as above the columns would give at their ends.
+const EVEN_ARM_STIFFNESS: f64 = 100.0;
 /// Newton's displacement tolerance over the span of the structure, some twenty times rounding.
 const TOLERANCE: f64 = 2e-14;
 /// Rise of a corner that counts as a motion, over that at which the structure topples.
@@ -160,6 +163,7 @@ impl ElasticDeck<'_> {
         // force over a step, divided by (1 + alpha) dt
         let damped = even.map_or(1.0, |even| even.forces_at());
         let tolerance = even.map_or(TOLERANCE * self.frame.span(), |even| even.tolerance());
+        let softer = even.is_some_and(|even| even.touches == 1);
         let values = [
             ("TITLE", printable_title(self.title)),
             ("GRAVITY", digits(GRAVITY)),
@@ -178,7 +182,7 @@ impl ElasticDeck<'_> {
             ("CORNERS", language.lines(self.corners(language))),
             ("DAMPERS", language.lines(self.dampers(language))),
             ("TENDONS", language.lines(self.tendons(language))),
-            ("LEG", digits(ARM_STIFFNESS)),
+            ("LEG", digits(if softer { EVEN_ARM_STIFFNESS } else { ARM_STIFFNESS })),
             ("RECORD_DT", digits(self.record.dt)),
             ("ACCURACY", digits(SHARE * self.accuracy)),
             ("LANDING", digits(self.landing())),

@@ -27,7 +27,7 @@ const ROWS: [PeakRow; 9] = [
     ("  of it by rocking", |p| Some(p.then?.rocking_m), meters, at_top),
     ("  of it by bending", |p| Some(p.then?.bending_m), meters, at_top),
     (MOVED, |p| Some(p.then?.feet_moved_m), meters, at_top),
-    (DRIFT_RATIO, |p| Some(p.drift_ratio), percents, at_top),
+    (DRIFT_RATIO, |p| Some(p.drift_ratio), percents, at_drift),
     ("largest by rocking", |p| p.bending_m.map(|_| p.rocking_m), meters, |t| Some(t.rocking_s)),
     ("largest by bending", |p| p.bending_m, meters, |t| t.bending_s),
     ("uplift", |p| Some(p.uplift_m), meters, |t| Some(t.uplift_s)),
@@ -41,6 +41,10 @@ fn to_the_end(_: &PeakTimes) -> Option<f64> {
 
 fn at_top(times: &PeakTimes) -> Option<f64> {
     Some(times.top_displacement_s)
+}
+
+fn at_drift(times: &PeakTimes) -> Option<f64> {
+    times.drift_ratio_s.or(Some(times.rocking_s))
 }
 
 /// Below this a displacement is rounding (m).
@@ -155,7 +159,7 @@ const SUMMARY: [SummaryRow; 7] = [
     ("largest by rocking", |p| p.bending_m.map(|_| p.rocking_m), "m", |t| Some(t.rocking_s)),
     ("largest by bending", |p| p.bending_m, "m", |t| t.bending_s),
     ("largest feet moved", |p| p.feet_moved_m, "m", |t| t.feet_moved_s),
-    ("drift ratio", |p| Some(p.drift_ratio), "1", at_top),
+    ("drift ratio", |p| Some(p.drift_ratio), "1", at_drift),
     ("uplift", |p| Some(p.uplift_m), "m", |t| Some(t.uplift_s)),
     ("impacts", |p| Some(p.impacts as f64), "1", to_the_end),
 ];

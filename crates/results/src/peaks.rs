@@ -34,7 +34,8 @@ pub struct Peaks {
     pub feet_moved_m: Option<f64>,
     /// Of a foot (m).
     pub uplift_m: f64,
-    /// Top displacement, less what the feet have moved then, over the height of the top.
+    /// Largest displacement of the top from above its feet, wherever these have moved, over the
+    /// height of the top.
     pub drift_ratio: f64,
     /// Parts of the top's displacement when it is largest, which are all of it; none of a rigid
     /// body.
@@ -72,6 +73,9 @@ pub struct PeakTimes {
     /// Of what feet have moved; none of a rigid body.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub feet_moved_s: Option<f64>,
+    /// Of the drift ratio; of a rigid body that of its rotation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drift_ratio_s: Option<f64>,
     /// Of a foot's uplift.
     pub uplift_s: f64,
 }
@@ -160,6 +164,7 @@ impl Peaks {
             rocking_s: rocking.time,
             bending_s: None,
             feet_moved_s: None,
+            drift_ratio_s: None,
             uplift_s: lifted.time,
         };
         Self {
@@ -169,7 +174,7 @@ impl Peaks {
             feet_moved_m: None,
             then: None,
             uplift_m: 2.0 * body.half_width * lifted.value.abs(),
-            drift_ratio: top_displacement_m / height,
+            drift_ratio: rocking.value.abs() / height,
             impacts,
             times: Some(times),
         }

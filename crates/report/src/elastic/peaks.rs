@@ -35,7 +35,7 @@ impl ElasticParts<'_> {
         let frame = &self.assembled.frame;
         let of = |q: &dyn Fn(usize) -> Vec<f64>, k: usize, impacts: usize| {
             let [mut top, mut rocking, mut bending] = [TimedPeak::default(); 3];
-            let [mut moved, mut lifted] = [TimedPeak::default(); 2];
+            let [mut moved, mut lifted, mut distorted] = [TimedPeak::default(); 3];
             let mut then = PartsOfTop::default();
             for i in 0..lengths[k] {
                 let q = q(i);
@@ -56,18 +56,19 @@ impl ElasticParts<'_> {
                         };
                     }
                     top = top.larger(now(x));
+                    distorted = distorted.larger(now(x - feet));
                     rocking = rocking.larger(now(x - feet - across));
                     bending = bending.larger(now(drift[i]));
                 }
                 lifted = lifted.larger(now(uplift(frame, &q)));
             }
             let top_displacement_m = top.value.abs();
-            let distorted = (then.rocking_m + then.bending_m).abs();
             let times = PeakTimes {
                 top_displacement_s: top.time,
                 rocking_s: rocking.time,
                 bending_s: Some(bending.time),
                 feet_moved_s: Some(moved.time),
+                drift_ratio_s: Some(distorted.time),
                 uplift_s: lifted.time,
             };
             Peaks {
@@ -77,7 +78,7 @@ impl ElasticParts<'_> {
                 feet_moved_m: Some(moved.value.abs()),
                 then: Some(then),
                 uplift_m: lifted.value,
-                drift_ratio: distorted / top_height(&self.assembled.structure),
+                drift_ratio: distorted.value.abs() / top_height(&self.assembled.structure),
                 impacts,
                 times: Some(times),
             }
