@@ -269,6 +269,16 @@ fn doubts_of_records_and_structures_are_told_before_and_in_the_summary() {
     assert!(!none.contains("CHECK"), "{none}");
 }
 
+/// Motions made like a given one have peaks of their own: 2 g is 101 times the 0.0198 g of this one.
+#[test]
+fn the_scale_of_motions_like_a_given_one_is_that_of_these() {
+    let weak = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/records/20180212_211557_WPWS_20.V2A");
+    let (_, said) = told(&format!("like = {weak:?}\nlike_count = 3"), "--no-figures");
+    let scale = said.split("scale this record by up to ").nth(1).unwrap();
+    let scale: f64 = scale.split(';').next().unwrap().parse().unwrap();
+    assert!((105.0..300.0).contains(&scale), "{said}");
+}
+
 #[test]
 fn a_summary_of_some_parts_tells_of_how_many_histories() {
     let dir = begun();

@@ -100,7 +100,7 @@ fn tiles(run: &Run) -> String {
         );
         out += &tile(&m(shown.top_displacement_m), &top);
         let drift = match shown.feet_moved_m {
-            Some(_) => "drift ratio: top displacement without the feet's, over height",
+            Some(_) => "drift ratio: largest of the top from above its feet, over height",
             None => "drift ratio: top displacement over height",
         };
         out += &tile(&percent(shown.drift_ratio), &format!("{drift}{of_top}"));

@@ -216,33 +216,46 @@ impl Plan {
             SweepDoubt::Given(left_out @ Doubt::VerticalLeftOut { .. }) => {
                 doubts.add(&name, SweepDoubt::LikeHorizontal(left_out));
             }
+            // those that are made are scaled, not this one
+            SweepDoubt::Scaled { .. } => {}
             other => doubts.add(&name, other),
         });
         let is_like = |motion: &&SweepMotion| matches!(motion, SweepMotion::Like(..));
         let looked_at = self.motions.iter().filter(is_like).count().min(LOOKED_AT);
-        let made = parallel::map_range(0..looked_at, |i| {
-            likeness(&given.target, &given.target.motion(self.making.seed, i, self.making.p.0))
-        });
+        let (made, peaks): (Vec<_>, Vec<_>) = parallel::map_range(0..looked_at, |i| {
+            let motion = given.target.motion(self.making.seed, i, self.making.p.0);
+            (likeness(&given.target, &motion), motion.pga())
+        })
+        .into_iter()
+        .unzip();
+        if let Some(scaled) = peaks.into_iter().reduce(f64::min).and_then(|pga| self.scaled(pga)) {
+            doubts.add(&name, scaled);
+        }
         if let Some(unlike) = unlike(&made) {
             doubts.add(&name, unlike);
         }
     }
 
-    /// Doubts of a record, as it is read and as it is used.
-    fn doubt(&self, whole: Record, used: &Record, mut add: impl FnMut(SweepDoubt)) {
+    /// That a record of this peak (m/s2) is scaled by more than is usual.
+    fn scaled(&self, pga: f64) -> Option<SweepDoubt> {
         let most = self.levels.iter().copied().fold(0.0, f64::max);
-        let factors = self.subjects.iter().map(|subject| self.factor(subject, most, used.pga()));
+        let factors = self.subjects.iter().map(|subject| self.factor(subject, most, pga));
         let factor = factors.fold(0.0, f64::max);
         let scaled = self.measure != Measure::Scale && factor > MOST_SCALE;
-        if scaled {
-            add(SweepDoubt::Scaled { factor });
-        }
+        scaled.then_some(SweepDoubt::Scaled { factor })
+    }
+
+    /// Doubts of a record, as it is read and as it is used.
+    fn doubt(&self, whole: Record, used: &Record, mut add: impl FnMut(SweepDoubt)) {
+        let scaled = self.scaled(used.pga());
+        let is_scaled = scaled.is_some();
+        scaled.into_iter().for_each(&mut add);
         let excitation =
             Excitation { duration_s: self.making.duration_s, ..Excitation::whole(whole) };
         // of records of many lengths some are shorter than what is asked for
         let counts = |doubt: &Doubt| match doubt {
             Doubt::LongDuration { .. } => false,
-            Doubt::WeakMotion { whole_g, least_g, .. } => !scaled || whole_g >= least_g,
+            Doubt::WeakMotion { whole_g, least_g, .. } => !is_scaled || whole_g >= least_g,
             _ => true,
         };
         let all = of_excitation(&excitation).into_iter().filter(counts);
