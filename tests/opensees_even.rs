@@ -76,8 +76,8 @@ fn decks_of_even_steps_find_what_the_emulation_found() {
 }
 
 /// Decks of elastic structures end within 1 % of what our emulation found, as far as the motion can
-/// be predicted, in Python and in Tcl, with substeps at touches and without: piers without damping,
-/// for which OpenSees for Tcl may have no objects. Even steps of 2 ms go with soft springs, on which
+/// be predicted, in Python and in Tcl, with substeps at touches and without: undamped piers, for
+/// which OpenSees for Tcl may have no objects. Even steps of 2 ms go with soft springs, on which
 /// soft arms show.
 #[test]
 #[ignore = "needs OpenSees, which .ci/run installs"]

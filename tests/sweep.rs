@@ -269,7 +269,7 @@ fn doubts_of_records_and_structures_are_told_before_and_in_the_summary() {
     assert!(!none.contains("CHECK"), "{none}");
 }
 
-/// Motions made like a given one have peaks of their own: 2 g is 101 times the 0.0198 g of this one.
+/// Motions made like a given one have peaks of their own: 2 g is 101 times this one's 0.0198 g.
 #[test]
 fn the_scale_of_motions_like_a_given_one_is_that_of_these() {
     let weak = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/records/20180212_211557_WPWS_20.V2A");
