@@ -99,11 +99,9 @@ fn tiles(run: &Run) -> String {
             m(reference.top_displacement_m)
         );
         out += &tile(&m(shown.top_displacement_m), &top);
-        let drift = match shown.feet_moved_m {
-            Some(_) => "drift ratio: largest of the top from above its feet, over height",
-            None => "drift ratio: top displacement over height",
-        };
-        out += &tile(&percent(shown.drift_ratio), &format!("{drift}{of_top}"));
+        let of_drift = late(|times| times.drift_ratio_s.unwrap_or(times.rocking_s));
+        let drift = "drift ratio: largest of the top from above its feet, over height";
+        out += &tile(&percent(shown.drift_ratio), &format!("{drift}{of_drift}"));
         out += &tile(
             &m(shown.uplift_m),
             &format!(
