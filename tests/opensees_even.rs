@@ -30,7 +30,7 @@ fn run_deck(folder: &TestFolder, deck: &str, format: &str) -> Option<Ended> {
 /// Decks of even steps and of substeps at touches end within 1 % of what our emulation found, which
 /// they check by themselves, in Python and in Tcl; a block, a frame, three integrators.
 #[test]
-#[ignore = "needs OpenSees, which .ci/run installs"]
+#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
 fn decks_of_even_steps_find_what_the_emulation_found() {
     let block = "[structure]\nkind = 'block'\ntotal_height_m = 4.0\nwidth_m = 1.2\nmass_kg = 4e3\n\
                  [record]\nscale = 1.8\n";
@@ -80,7 +80,7 @@ fn decks_of_even_steps_find_what_the_emulation_found() {
 /// which OpenSees for Tcl may have no objects. Even steps of 2 ms go with soft springs, on which
 /// soft arms show.
 #[test]
-#[ignore = "needs OpenSees, which .ci/run installs"]
+#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
 fn decks_of_elastic_structures_find_what_the_emulation_found() {
     let pier = |more: &str| format!("[structure]\nkind = 'pier'\ndamping_ratio = 0.0\n{more}");
     let stout = pier(

@@ -39,7 +39,7 @@ fn column(folder: &TestFolder, file: &str, name: &str) -> Vec<f64> {
 /// OpenSees' history of a column of two elements with a mass of its own, beside rigid ground with
 /// plastic landings: nearer on stiffer springs.
 #[test]
-#[ignore = "needs OpenSees, which .ci/run installs"]
+#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
 fn a_column_of_several_elements_in_opensees_converges_to_plastic_landings() {
     let column_of_two = "column_mass_kg = 40e3\nelements = 2\n\n[record]\nduration_s = 5.0\n";
     let case = include_str!("../../tuning/pier.toml");
@@ -82,7 +82,7 @@ damping_ratio = 0.02
 ";
 
 #[test]
-#[ignore = "needs OpenSees, which .ci/run installs"]
+#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
 fn elastic_structures_agree() {
     let python = &programs()[..1];
     let run = "--work 0.05 --no-front";
@@ -97,7 +97,7 @@ const SHORT: &str = "--duration 5 --work 0.05 --no-front";
 /// The Tcl interpreter that pip installs has no damping objects: without damping it must find what
 /// Python finds. In steps as long as the limit of `tune verify` allows.
 #[test]
-#[ignore = "needs OpenSees, which .ci/run installs"]
+#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
 fn an_undamped_elastic_structure_agrees_in_every_language() {
     let undamped = ELASTIC_FRAME.replace("damping_ratio = 0.02", "damping_ratio = 0.0");
     let run = format!("{SHORT} --max-hz 400");
@@ -106,7 +106,7 @@ fn an_undamped_elastic_structure_agrees_in_every_language() {
 
 /// Rocking piers of El Centro's first seconds, damped at their corners and tied down.
 #[test]
-#[ignore = "needs OpenSees, which .ci/run installs"]
+#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
 fn an_elastic_structure_with_dampers_and_a_tendon_agrees_in_every_language() {
     let pier = include_str!("../../tuning/pier.toml")
         .replace("damping_ratio = 0.02", "damping_ratio = 0.0");

@@ -101,7 +101,7 @@ fn stiff(structure: &Structure, hz: f64) -> Springs<Design<f64>> {
 /// of the error: that is why the bound is on the median. OpenSees' Tcl interpreter cannot run
 /// twice: its deck tells.
 #[test]
-#[ignore = "needs OpenSees, which .ci/run installs"]
+#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
 fn decks_on_stiff_springs_are_within_their_limit_in_few_steps() {
     let pier = Structure::a_frame(12.0, 2.4, 350e3).unwrap();
     let mut steps = Vec::new();
@@ -137,7 +137,7 @@ fn decks_on_stiff_springs_are_within_their_limit_in_few_steps() {
 /// first uplift a foot chatters 70 times. OpenSees finds another history in other steps; it is
 /// refused, and said why.
 #[test]
-#[ignore = "needs OpenSees, which .ci/run installs"]
+#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
 fn springs_on_which_a_lifting_foot_chatters_are_refused() {
     let pier = with_inertia(&Structure::a_frame(12.0, 2.4, 350e3).unwrap(), &Members::default());
     let springs = Springs {
@@ -187,7 +187,7 @@ macro_rules! agree {
     ($($(#[$doc:meta])* $name:ident: $run:expr;)*) => {$(
         $(#[$doc])*
         #[test]
-        #[ignore = "needs OpenSees, which .ci/run installs"]
+        #[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
         fn $name() {
             $run
         }
@@ -255,7 +255,7 @@ fn agrees_on(structure: Structure, springs: Springs<Design<f64>>, members: Membe
 }
 
 #[test]
-#[ignore = "needs OpenSees, which .ci/run installs"]
+#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
 fn dampers_across_the_interface_agree() {
     agrees_with(Members { damper: Some(Damper { c: 1e6 }), ..Members::default() }, 20.0);
 }
@@ -263,7 +263,7 @@ fn dampers_across_the_interface_agree() {
 /// On springs as stiff as a run makes them a mass with little rotational inertia hops there, both
 /// feet in the air.
 #[test]
-#[ignore = "needs OpenSees, which .ci/run installs"]
+#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
 fn dampers_on_stiff_springs_agree() {
     let frame = Structure::a_frame(28.0, 6.0, 1.835e6).unwrap();
     let damped = Members { damper: Some(Damper { c: 1e6 }), ..Members::default() };
@@ -272,14 +272,14 @@ fn dampers_on_stiff_springs_agree() {
 }
 
 #[test]
-#[ignore = "needs OpenSees, which .ci/run installs"]
+#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
 fn a_post_tensioned_tendon_agrees() {
     let tendon = Some(Tendon { stiffness: 2e6, pretension: 5e5 });
     agrees_with(Members { tendon, ..Members::default() }, 20.0);
 }
 
 #[test]
-#[ignore = "needs OpenSees, which .ci/run installs"]
+#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
 fn dampers_and_a_tendon_agree() {
     let tendon = Some(Tendon { stiffness: 2e6, pretension: 5e5 });
     agrees_with(Members { damper: Some(Damper { c: 1e6 }), tendon, friction: None }, 20.0);
