@@ -59,9 +59,9 @@ fn history(run: &ElasticRun) -> Result<Figure, FigureError> {
     let width = 2.0 * run.assembled.structure.body().half_width;
     let largest = feet.iter().flatten().map(|moved| peak(moved).abs()).fold(0.0, f64::max);
     if largest > LEAST_MOVED * width {
-        for (i, [reference, fem]) in feet.iter().enumerate() {
-            let of = if i == 0 { "left foot moved" } else { "right foot moved" };
-            names.push((of.to_string(), "m"));
+        let of = foot_names(feet.len());
+        for (name, [reference, fem]) in of.iter().zip(&feet) {
+            names.push((name.to_string(), "m"));
             curves.push([reference, fem]);
         }
     }
@@ -96,6 +96,14 @@ fn horizon(run: &ElasticRun) -> Option<(f64, String)> {
         }
         (None, _) => return None,
     })
+}
+
+/// Curves of where feet are: of a structure on one footing, or on two feet.
+fn foot_names(feet: usize) -> &'static [&'static str] {
+    match feet {
+        1 => &["footing moved"],
+        _ => &["left foot moved", "right foot moved"],
+    }
 }
 
 /// Curves of forces: without those of the rigid body, of which an A-frame has none.
@@ -150,6 +158,11 @@ fn forces(run: &ElasticRun) -> Result<Figure, FigureError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn one_footing_is_neither_left_nor_right() {
+        assert_eq!((foot_names(1), foot_names(2).len()), (&["footing moved"][..], 2));
+    }
 
     #[test]
     fn the_legend_of_forces_names_the_curves_that_there_are() {
