@@ -349,6 +349,15 @@ pub fn largest(sways: &[[Sway; 2]], k: usize, of: fn(&Sway) -> &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use frames::{assembled::Assembled, structure::ElasticStructure};
+
+    /// On feet 6 m apart.
+    pub(super) fn a_frame() -> Assembled {
+        let text = "kind = 'aframe'\nheight_m = 24.0\nwidth_m = 6.0\nmass_kg = 3e5\n\
+            foot_mass_kg = 1e4\nea_n = 1e10\nei_nm2 = 1e10\ndamping_ratio = 0.03\n";
+        let structure: ElasticStructure = toml::from_str(text).unwrap();
+        Assembled::new(structure.checked().unwrap()).unwrap()
+    }
 
     /// Springs are compared over 12.2 s, a deck over 4.42 s: so far the motion is foretold.
     #[test]

@@ -66,16 +66,12 @@ fn moved(assembled: &Assembled, first: &[f64], then: &[f64]) -> [f64; 2] {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use frames::structure::ElasticStructure;
+    use super::{super::tests::a_frame, *};
 
     /// An A-frame whose left foot has moved by 0.9 m, and the right one by 0.8 m.
     #[test]
     fn feet_that_walk_stand_beside_their_place_and_those_in_the_air_are_not_asked() {
-        let text = "kind = 'aframe'\nheight_m = 24.0\nwidth_m = 6.0\nmass_kg = 3e5\n\
-            foot_mass_kg = 1e4\nea_n = 1e10\nei_nm2 = 1e10\ndamping_ratio = 0.03\n";
-        let structure: ElasticStructure = toml::from_str(text).unwrap();
-        let assembled = Assembled::new(structure.checked().unwrap()).unwrap();
+        let assembled = a_frame();
         let frame = &assembled.frame;
         let size = (0..frame.nodes()).flat_map(|node| frame.coordinates(node)).flatten().count();
         let first = vec![0.0; size];

@@ -120,17 +120,13 @@ fn uplift(frame: &Frame, q: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use frames::{assembled::Assembled, structure::ElasticStructure};
+    use super::{super::tests::a_frame, *};
+    use frames::assembled::Assembled;
 
     /// A structure that is moved as a whole: its feet move with it, and no corner lifts.
     #[test]
     fn feet_of_a_structure_that_has_moved_are_where_they_landed() {
-        let text = "kind = 'aframe'\nheight_m = 24.0\nwidth_m = 6.0\nmass_kg = 3e5\n\
-            foot_mass_kg = 1e4\nea_n = 1e10\nei_nm2 = 1e10\ndamping_ratio = 0.03\n";
-        let structure: ElasticStructure = toml::from_str(text).unwrap();
-        let Assembled { frame, watched, .. } =
-            Assembled::new(structure.checked().unwrap()).unwrap();
+        let Assembled { frame, watched, .. } = a_frame();
         let feet_moved = |q: &[f64]| watched[0].base.feet_moved(&frame, q);
         let mut q =
             vec![
