@@ -2,7 +2,10 @@
 //! too, and what the emulation of such a program finds of it.
 
 use dynamics::spring::{Chain, Springs};
-use fixed_steps::{FixedStepAnalysis, FixedStepFrame, FixedStepOutcome, GaveUp};
+use fixed_steps::{
+    FixedStepAnalysis, FixedStepFrame, FixedStepFrameHistory, FixedStepOutcome, GaveUp,
+    MemberDamping, StepSettings,
+};
 use frames::{Mechanics, assembled::Assembled, frame::EquilibriumError};
 use nalgebra::DVector;
 use parameters::{
@@ -14,9 +17,16 @@ use springs::elastic::program::for_substep;
 use strong_motion::Record;
 
 use crate::{
-    ExportError,
+    DeckFormat, ExportError,
     stepping::{EvenSteps, Stepping},
 };
+
+/// By how much stronger a motion is that a history is to be told from: a deck's arms and OpenSees'
+/// rounding make as much of a difference to the histories of elastic structures.
+const STRONGER: f64 = 1e-5;
+/// Part of the largest displacement beyond which both histories have parted: a tenth of what a deck
+/// allows.
+const PARTED: f64 = 1e-3;
 
 /// Springs of an elastic structure for a program with fixed time steps, and how it steps.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,8 +78,7 @@ impl CornerProgram {
         EvenSteps::new(&self.row, self.touches)
     }
 
-    /// Emulated through a record: the structure's coordinates at every sample, and when the program
-    /// gives up, if it does (s).
+    /// Emulated through a record.
     ///
     /// # Errors
     /// As many units as corners are needed.
@@ -77,21 +86,85 @@ impl CornerProgram {
         &self,
         assembled: &Assembled,
         record: &Record,
-    ) -> Result<(Vec<Vec<f64>>, Option<f64>), ExportError> {
+    ) -> Result<CornerHistory, ExportError> {
+        self.history_with(assembled, record, MemberDamping::of_program(self.row.name))
+    }
+
+    /// The same in the program that a deck of this format is for.
+    ///
+    /// # Errors
+    /// The same.
+    pub fn history_in_deck(
+        &self,
+        assembled: &Assembled,
+        record: &Record,
+        format: DeckFormat,
+    ) -> Result<CornerHistory, ExportError> {
+        self.history_with(assembled, record, format.member_damping())
+    }
+
+    /// Whether a deck of this format is for the program itself.
+    pub fn is_of(&self, format: DeckFormat) -> bool {
+        format.member_damping() == MemberDamping::of_program(self.row.name)
+    }
+
+    fn history_with(
+        &self,
+        assembled: &Assembled,
+        record: &Record,
+        damping: MemberDamping,
+    ) -> Result<CornerHistory, ExportError> {
         let frame = &assembled.frame;
         let failed = |e: EquilibriumError| ExportError::Steps { message: e.to_string() };
         let springs = self.row.units.chains();
         let still = DVector::zeros(frame.size());
         let weight = frame.whole_mass(&still) * GRAVITY;
         let model = FixedStepFrame::new(frame, &springs).map_err(failed)?;
-        let settings = self.steps().settings(weight);
+        let settings = StepSettings { damping, ..self.steps().settings(weight) };
         let analysis = FixedStepAnalysis::new(&model, settings, record.dt, &record.accel);
         let analysis = FixedStepAnalysis { vertical: record.up(), ..analysis };
-        let history = analysis.history().map_err(failed)?;
-        let gives_up = match history.outcome {
+        let FixedStepFrameHistory { coordinates, outcome, .. } =
+            analysis.history().map_err(failed)?;
+        let gives_up_s = match outcome {
             FixedStepOutcome::GaveUp(GaveUp { time, .. }) => Some(time),
             _ => None,
         };
-        Ok((history.coordinates, gives_up))
+        let mut history = CornerHistory { coordinates, gives_up_s, foretold_s: None };
+        if damping == MemberDamping::OfChanges {
+            let stronger = FixedStepAnalysis { scale: 1.0 + STRONGER, ..analysis };
+            let beside = stronger.history().map_err(failed)?.coordinates;
+            history.foretold_s = history.parts_from(&beside, assembled, record.dt);
+        }
+        Ok(history)
+    }
+}
+
+/// A structure's history in a program with fixed time steps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CornerHistory {
+    /// The structure's coordinates at every sample.
+    pub coordinates: Vec<Vec<f64>>,
+    /// When the program gives up, if it does (s).
+    pub gives_up_s: Option<f64>,
+    /// Up to when OpenSees can be expected to find the same (s), of a history for OpenSees: to its
+    /// end if none.
+    pub foretold_s: Option<f64>,
+}
+
+impl CornerHistory {
+    /// Up to when a history of a slightly stronger motion stays with this one (s), at the node that
+    /// a deck checks; none if to its end.
+    fn parts_from(&self, beside: &[Vec<f64>], assembled: &Assembled, dt: f64) -> Option<f64> {
+        let top = assembled.watched.first().map_or(0, |watched| watched.top);
+        let [ours, theirs] = [&self.coordinates[..], beside].map(|all| {
+            let place = |q: &Vec<f64>| assembled.frame.displacement(top, q);
+            all.iter().map(place).collect::<Vec<_>>()
+        });
+        let peak = ours.iter().map(|[x, ..]| x.abs()).fold(0.0, f64::max);
+        let apart = |([x, z, _], [x1, z1, _]): (&[f64; 3], &[f64; 3])| {
+            (x - x1).hypot(z - z1) > PARTED * peak
+        };
+        let first = ours.iter().zip(&theirs).position(apart)?;
+        Some(first.saturating_sub(1) as f64 * dt)
     }
 }

@@ -26,6 +26,9 @@ const EVEN_ARM_STIFFNESS: f64 = 100.0;
 const TOLERANCE: f64 = 2e-14;
 /// Rise of a corner that counts as a motion, over that at which the structure topples.
 const SMALL_MOTION: f64 = 0.01;
+/// From this part of a record's step on dashpots of beams work where steps follow touches: the
+/// first step is shorter.
+const SMALL_STEP: f64 = 1e-4;
 /// Radians of the structure's sway that a step may take: leaning it sways some three times as fast
 /// as fixed, and TRBDF2 lags by a twelfth of the step's square.
 const SWAY: f64 = 0.03;
@@ -184,6 +187,7 @@ impl ElasticDeck<'_> {
             ("TENDONS", language.lines(self.tendons(language))),
             ("LEG", digits(if softer { EVEN_ARM_STIFFNESS } else { ARM_STIFFNESS })),
             ("RECORD_DT", digits(self.record.dt)),
+            ("DAMPED_FROM", digits(even.map_or(SMALL_STEP * self.record.dt, |e| e.damped_from()))),
             ("ACCURACY", digits(SHARE * self.accuracy)),
             ("LANDING", digits(self.landing())),
             ("RISE", digits(rise)),

@@ -54,6 +54,7 @@ TENDONS = (
 )
 
 RECORD_DT = @RECORD_DT@        # s
+DAMPED_FROM = @DAMPED_FROM@    # s: from here on dashpots of beams work
 ACCURACY = @ACCURACY@          # of the history, as a normalised error: the steps follow from it
 LANDING = @LANDING@            # s: sqrt(mass that lands / k1), what a landing takes
 RISE = @RISE@                  # of a corner, m, from which on its motion counts: a hundredth of where the structure topples
@@ -113,8 +114,8 @@ def build():
         for part, (ea, ei, ahead) in enumerate(((axial, 0.0, ahead_axial), (0.0, bending, ahead_bending))):
             damping = ()
             if ahead > 0.0:
-                # from a step on: the first one would take all of the weight's force for a change since the one before
-                ops.damping("SecStif", tag + part, ahead, "-activateTime", 1e-4 * RECORD_DT)
+                # not in the first step, which would take a part of the weight's force for a change since the one before
+                ops.damping("SecStif", tag + part, ahead, "-activateTime", DAMPED_FROM)
                 damping = ("-damp", tag + part)
             ops.element("elasticBeamColumn", tag + part, *ends, ea, 1.0, ei, 1, *damping)
 @SHEAR_SPRINGS@

@@ -40,6 +40,7 @@ set tendons {
 }
 
 set recordDt  @RECORD_DT@ ;# s
+set dampedFrom @DAMPED_FROM@ ;# s: from here on dashpots of beams work
 set accuracy  @ACCURACY@ ;# of the history, as a normalised error: the steps follow from it
 set landing   @LANDING@ ;# s: sqrt(mass that lands / k1), what a landing takes
 set rise      @RISE@ ;# of a corner, m, from which on its motion counts: a hundredth of where the structure topples
@@ -70,8 +71,8 @@ proc rigidArm {tag i place offset stiffness} {
 # rotation of the whole structure meets none.
 proc beam {tag from to ea ei ahead} {
     if {$ahead > 0.0} {
-        # from a step on: the first one would take all of the weight's force for a change since the one before
-        damping SecStif $tag $ahead -activateTime [expr {1e-4 * $::recordDt}]
+        # not in the first step, which would take a part of the weight's force for a change since the one before
+        damping SecStif $tag $ahead -activateTime $::dampedFrom
         element elasticBeamColumn $tag $from $to $ea 1.0 $ei 1 -damp $tag
     } else {
         element elasticBeamColumn $tag $from $to $ea 1.0 $ei 1

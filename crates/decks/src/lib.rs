@@ -32,11 +32,12 @@ pub mod verify;
 
 use thiserror::Error;
 
-pub use corner_program::CornerProgram;
+pub use corner_program::{CornerHistory, CornerProgram};
 use dynamics::fem::History;
 pub use elastic::ElasticDeck;
 pub use expectation::{DeckExpectation, foretold_rigid};
 use files::message::significant;
+use fixed_steps::MemberDamping;
 use model::DeckModel;
 pub use model::{ACCURACY, with_inertia};
 pub use output::OutputSteps;
@@ -85,6 +86,11 @@ impl DeckFormat {
     /// Whether it is for SAP2000.
     pub fn is_sap2000(self) -> bool {
         matches!(self, Self::Sap2000 | Self::Sap2000Sheet)
+    }
+
+    /// What dashpots of members resist in the program that it is for.
+    pub(crate) fn member_damping(self) -> MemberDamping {
+        if self.is_sap2000() { MemberDamping::OfVelocities } else { MemberDamping::OfChanges }
     }
 
     /// Its name on the command line.

@@ -120,7 +120,13 @@ impl EvenSteps {
         TOLERANCE * GRAVITY * (self.step / self.touches as f64).powi(2)
     }
 
-    /// As the emulation steps.
+    /// From when on dashpots of beams work in OpenSees (s): after the first step, wherever in it an
+    /// integrator takes its forces.
+    pub(crate) fn damped_from(&self) -> f64 {
+        1.2 * self.step
+    }
+
+    /// As the emulation steps a structure without dampers in its members.
     pub(crate) fn settings(&self, weight: f64) -> StepSettings {
         let test = match self.unbalance {
             Some(most) => ConvergenceTest::Unbalance(most * weight),

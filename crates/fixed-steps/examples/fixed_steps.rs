@@ -21,7 +21,7 @@ use std::{
 use dynamics::spring::{Chain, Springs};
 use fixed_steps::{
     ConvergenceTest, FixedStepAnalysis, FixedStepBody, FixedStepDesign, FixedStepFrame,
-    FixedStepModel, FixedStepOutcome, FixedStepSprings, Iteration, StepSettings,
+    FixedStepModel, FixedStepOutcome, FixedStepSprings, Iteration, MemberDamping, StepSettings,
     measured::WellConditioned,
 };
 use frames::{
@@ -163,7 +163,8 @@ fn history<M: FixedStepModel>(
     };
     let (dt, accel) = asked.dt.zip(asked.accel.as_deref()).ok_or("give dt and accel")?;
     let iteration = Iteration { constant: 0, newton: 30, test };
-    let settings = StepSettings { iteration, ..StepSettings::new(integrator.parse()?, *step) };
+    let settings = StepSettings::new(integrator.parse()?, *step);
+    let settings = StepSettings { iteration, damping: MemberDamping::OfChanges, ..settings };
     let at_touches = asked.at_touches.unwrap_or(1);
     let settings = settings.with_touches(at_touches);
     let settings = match asked.substeps {

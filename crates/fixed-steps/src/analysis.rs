@@ -10,7 +10,7 @@ use crate::{
     events::{EventSearch, EventStepping, FirstEvent, end_substep},
     integrator::Integrator,
     iteration::{Iterates, Iteration},
-    kinematics::{Kinematics, StepKinematics},
+    kinematics::{Kinematics, MemberDamping, StepKinematics},
     model::FixedStepModel,
     rigid::FixedStepBody,
 };
@@ -62,13 +62,16 @@ pub struct StepSettings {
     pub events: Option<EventStepping>,
     /// The iteration at a step's end.
     pub iteration: Iteration,
+    /// What dashpots of members resist.
+    pub damping: MemberDamping,
 }
 
 impl StepSettings {
     /// Without substeps, the iteration that of scripts.
     pub fn new(integrator: Integrator, step: f64) -> Self {
         let (at_touches, events, iteration) = (1, None, Iteration::SCRIPT);
-        Self { integrator, step, least: step, at_touches, events, iteration }
+        let damping = MemberDamping::OfVelocities;
+        Self { integrator, step, least: step, at_touches, events, iteration, damping }
     }
 
     /// With substeps down to this part of a step: 1/16 for instance.
@@ -193,7 +196,7 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
         show: &mut impl FnMut(usize, &M::Vector) -> ControlFlow<()>,
     ) -> (FixedStepOutcome, FixedStepWork) {
         let mut work = FixedStepWork::default();
-        let mut iterates = Iterates::new(self.model, &motion.q);
+        let mut iterates = Iterates::new(self.model, &motion.q, self.settings.damping);
         let mut shown = 0;
         let last = self.accel.len();
         let count = ((last.saturating_sub(1)) as f64 * self.dt / self.settings.step - SAME)

@@ -14,7 +14,7 @@ use std::ops::ControlFlow;
 use dynamics::spring::{Chain, Springs};
 use frames::{
     Mechanics,
-    frame::{EquilibriumError, Frame, PlaceOnNode, Reach, Support},
+    frame::{EquilibriumError, Frame, PlaceOnNode, Reach, StrainRates, Support},
 };
 use nalgebra::{DMatrix, DVectorViewMut, Dyn, LU};
 
@@ -58,6 +58,14 @@ impl<'a> FixedStepFrame<'a> {
     /// Number of the frame's coordinates, which come first.
     fn n(&self) -> usize {
         self.frame.size()
+    }
+
+    /// What the dashpots of the frame's members resist in a trial.
+    fn strain_rates<'t>(&self, trial: &'t Trial<Vec<f64>>) -> StrainRates<'t> {
+        match &trial.change {
+            Some((from, over)) => StrainRates::OfChange { from: &from[..self.n()], over: *over },
+            None => StrainRates::OfVelocities,
+        }
     }
 
     /// Every corner with its unit and the index of its horizontal absorber; the vertical one
@@ -158,10 +166,10 @@ impl FixedStepModel for FixedStepFrame<'_> {
         ground: [f64; 2],
         out: &mut Vec<f64>,
     ) {
-        let (Trial { q, v, a }, n) = (trial, self.n());
+        let (Trial { q, v, a, .. }, n) = (trial, self.n());
         let mut inertia = vec![0.0; n];
         self.frame.momentum(&a[..n], &mut inertia);
-        self.frame.forces(&q[..n], &v[..n], ground, &mut out[..n]);
+        self.frame.forces((&q[..n], &v[..n]), self.strain_rates(trial), ground, &mut out[..n]);
         out.iter_mut().zip(inertia).for_each(|(out, inertia)| *out -= inertia);
         for (((at, place, unit), reach), foot) in self.corners().zip(places).zip(feet) {
             let force = foot.force(unit, q[at + 1] - reach.place[1], reach.place[0] - q[at]);
@@ -193,7 +201,7 @@ impl FixedStepModel for FixedStepFrame<'_> {
     ) -> Option<FrameFactor> {
         let (Trial { q, v, .. }, n) = (trial, self.n());
         let (mut k, mut c) = (DMatrix::zeros(n, n), DMatrix::zeros(n, n));
-        self.frame.slopes(&q[..n], &v[..n], &mut k, &mut c);
+        self.frame.slopes((&q[..n], &v[..n]), self.strain_rates(trial), &mut k, &mut c);
         let mut matrix =
             self.frame.mass_matrix() * weights.mass + c * weights.damping + k * weights.stiffness;
         let (mut units, mut slopes) =

@@ -204,7 +204,7 @@ fn first_crossing<F: AsRef<[FixedFoot]>>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{iteration::ConvergenceTest, rigid::FixedStepBody};
+    use crate::{iteration::ConvergenceTest, kinematics::MemberDamping, rigid::FixedStepBody};
     use approx::assert_relative_eq;
     use dynamics::spring::{Chain, Design, Springs};
     use rocking::{scalar::GRAVITY, structure::Structure};
@@ -240,7 +240,7 @@ mod tests {
             integrator: &integrator,
             whole: STEP,
         };
-        let mut iterates = Iterates::new(&model, &q);
+        let mut iterates = Iterates::new(&model, &q, MemberDamping::OfVelocities);
         match search.first(STEP, &motion, &mut feet, &mut iterates, |_| [0.0; 2]) {
             FirstEvent::Substep { step, changing } => Some((step.size, changing)),
             FirstEvent::Unclear => None,

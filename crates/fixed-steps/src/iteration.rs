@@ -6,7 +6,7 @@
 //! ```
 
 use crate::{
-    kinematics::{Kinematics, StepKinematics, Trial},
+    kinematics::{Kinematics, MemberDamping, StepKinematics, Trial},
     model::FixedStepModel,
 };
 
@@ -72,8 +72,9 @@ pub(crate) struct Iterates<M: FixedStepModel> {
 }
 
 impl<M: FixedStepModel> Iterates<M> {
-    pub(crate) fn new(model: &M, like: &M::Vector) -> Self {
-        let trial = Trial { q: like.clone(), v: like.clone(), a: like.clone() };
+    pub(crate) fn new(model: &M, like: &M::Vector, damping: MemberDamping) -> Self {
+        let change = (damping == MemberDamping::OfChanges).then(|| (like.clone(), 0.0));
+        let trial = Trial { q: like.clone(), v: like.clone(), a: like.clone(), change };
         let places = model.places(like);
         Self {
             change: like.clone(),

@@ -13,6 +13,17 @@ pub struct TangentWeights {
     pub stiffness: f64,
 }
 
+/// What dashpots of members resist in a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MemberDamping {
+    /// The rate of strain by the integrator's velocities.
+    OfVelocities,
+    /// The change of strain from where the step before took its forces, over a step: OpenSees'
+    /// damping objects (its source SecStifDamping.cpp). Under HHT they divide by 1 + alpha of a
+    /// step: the factor is not in here, decks take it off the objects.
+    OfChanges,
+}
+
 /// Where a trial of a step takes its forces: place, velocity and acceleration there.
 #[derive(Clone, Debug)]
 pub struct Trial<V> {
@@ -22,6 +33,9 @@ pub struct Trial<V> {
     pub v: V,
     /// Acceleration (m/s2, rad/s2).
     pub a: V,
+    /// Where the step before took its forces, and the size of this one (s), if dashpots of members
+    /// resist the change from there.
+    pub change: Option<(V, f64)>,
 }
 
 /// The motion so far: its last two steps.
@@ -34,6 +48,8 @@ pub struct Kinematics<V> {
     /// Acceleration there.
     pub a: V,
     before: [V; 2],
+    /// Where the last step took its forces.
+    forced: V,
     equal: usize,
     last: f64,
 }
@@ -64,12 +80,13 @@ impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> Kinematics<V> {
         let mut still = q.clone();
         still.as_mut().fill(0.0);
         let before = [q.clone(), still.clone()];
-        Self { q, v: still.clone(), a: still, before, equal: 0, last: 0.0 }
+        Self { forced: q.clone(), q, v: still.clone(), a: still, before, equal: 0, last: 0.0 }
     }
 
     /// With a velocity and an acceleration.
     pub fn moving(q: V, v: V, a: V) -> Self {
-        Self { before: [q.clone(), v.clone()], q, v, a, equal: 0, last: 0.0 }
+        let (before, forced) = ([q.clone(), v.clone()], q.clone());
+        Self { before, forced, q, v, a, equal: 0, last: 0.0 }
     }
 
     /// The next step. One of another size than the last begins a multi-step formula anew.
@@ -111,10 +128,12 @@ impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> Kinematics<V> {
         std::mem::swap(&mut self.before[0], &mut self.q);
         std::mem::swap(&mut self.before[1], &mut self.v);
         let [of_v, of_a] = step.rates;
-        let change = change.as_ref();
+        let (change, forced) = (change.as_ref(), self.forced.as_mut());
         let (q, v, a) = (self.q.as_mut(), self.v.as_mut(), self.a.as_mut());
         for (i, &d) in change.iter().enumerate() {
-            q[i] = flushed(self.before[0].as_ref()[i] + d);
+            let from = self.before[0].as_ref()[i];
+            forced[i] = from + step.forces_at * d;
+            q[i] = flushed(from + d);
             v[i] = flushed(step.v.as_ref()[i] + of_v * d);
             a[i] = flushed(step.a.as_ref()[i] + of_a * d);
         }
@@ -154,6 +173,10 @@ impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> StepKinematics<V> {
             q_out[i] = q0[i] + w * d;
             v_out[i] = (1.0 - w) * v0[i] + w * (v[i] + of_v * d);
             a_out[i] = (1.0 - m) * a0[i] + m * (a[i] + of_a * d);
+        }
+        if let Some((forced, size)) = &mut out.change {
+            forced.as_mut().copy_from_slice(from.forced.as_ref());
+            *size = self.size;
         }
     }
 }

@@ -48,6 +48,7 @@ pub use expected::ExpectedError;
 pub use integrator::Integrator;
 pub use integrator_name::IntegratorNameError;
 pub use iteration::{ConvergenceTest, Iteration};
+pub use kinematics::MemberDamping;
 pub use model::FixedStepModel;
 pub use program::{FixedStepProgram, ProgramName};
 pub use recipe::{FixedStepDesign, FixedStepSprings};

@@ -21,6 +21,7 @@ use crate::{
     analysis::StepSettings,
     integrator::Integrator,
     iteration::{ConvergenceTest, Iteration},
+    kinematics::MemberDamping,
     recipe::{NEWTON, TOLERANCE},
 };
 use rocking::scalar::GRAVITY;
@@ -95,6 +96,16 @@ impl ProgramName {
         match self {
             Self::Sap2000 | Self::Etabs => Integrator::HHT_MOST,
             Self::OpenSees => Integrator::BackwardEuler,
+        }
+    }
+}
+
+impl MemberDamping {
+    /// Of a program; OpenSees' where only an integrator is known.
+    pub fn of_program(name: Option<ProgramName>) -> Self {
+        match name {
+            Some(ProgramName::Sap2000 | ProgramName::Etabs) => Self::OfVelocities,
+            Some(ProgramName::OpenSees) | None => Self::OfChanges,
         }
     }
 }
@@ -187,7 +198,9 @@ impl FixedStepProgram {
             let test = ConvergenceTest::Increment(TOLERANCE * GRAVITY * self.step.powi(2));
             Iteration { constant: 0, newton: NEWTON, test }
         };
-        let settings = StepSettings { iteration, ..StepSettings::new(self.integrator, self.step) };
+        let damping = MemberDamping::of_program(self.name);
+        let settings = StepSettings::new(self.integrator, self.step);
+        let settings = StepSettings { iteration, damping, ..settings };
         settings.with_substeps(1.0 / self.substeps.max(1) as f64)
     }
 }

@@ -72,7 +72,7 @@ impl FixedStepModel for FallingMass {
         _: [f64; 2],
         out: &mut [f64; 2],
     ) {
-        let Trial { q, v, a } = trial;
+        let Trial { q, v, a, .. } = trial;
         let press = Self::press(q, feet);
         *out = [press - self.mass * a[0], -press - self.k * q[1] - self.c * v[1] - self.mu * a[1]];
     }

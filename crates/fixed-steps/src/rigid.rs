@@ -157,7 +157,7 @@ impl FixedStepModel for FixedStepBody {
         [ground, up]: [f64; 2],
         out: &mut [f64; N],
     ) {
-        let Trial { q, v, a } = trial;
+        let Trial { q, v, a, .. } = trial;
         let Springs { vertical, horizontal } = &self.springs;
         let m = self.body.mass;
         out[X] = -m * (ground + a[X]);
@@ -284,6 +284,7 @@ mod tests {
             q: [1e-3, -2e-3, 0.03, 2e-4, -1e-4, 3e-4, right],
             v: [0.1, -0.2, 0.05, 0.03, -0.02, 0.01, 0.04],
             a: [1.0, 2.0, -3.0, 0.5, -0.4, 0.3, 0.2],
+            change: None,
         }
     }
 
@@ -291,7 +292,7 @@ mod tests {
     fn it_stands_still_under_its_weight() {
         let model = model();
         let (q, mut feet) = model.standing().unwrap();
-        let still = Trial { q, v: [0.0; N], a: [0.0; N] };
+        let still = Trial { q, v: [0.0; N], a: [0.0; N], change: None };
         let mut out = [0.0; N];
         let places = model.places(&q);
         model.meet(&places, &q, &mut feet);
@@ -305,7 +306,7 @@ mod tests {
     fn what_a_foot_drops_is_a_force_on_two_nodes() {
         let model = model();
         let (q, mut feet) = model.standing().unwrap();
-        let still = Trial { q, v: [0.0; N], a: [0.0; N] };
+        let still = Trial { q, v: [0.0; N], a: [0.0; N], change: None };
         let (places, mut out) = (model.places(&q), [0.0; N]);
         model.meet(&places, &q, &mut feet);
         feet[1].closed = false;

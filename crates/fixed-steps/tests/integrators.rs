@@ -240,7 +240,7 @@ impl FixedStepModel for LinearChain {
         out: &mut [f64; 2],
     ) {
         let Chain { k1, k2, m2, c } = self.chain;
-        let Trial { q: [u, a], v, a: accel } = trial;
+        let Trial { q: [u, a], v, a: accel, .. } = trial;
         out[0] = -self.mass * (ground + accel[0]) - k1 * (u - a);
         out[1] = k1 * (u - a) - k2 * a - c * v[1] - m2 * accel[1];
     }

@@ -125,6 +125,11 @@ impl Beam {
         self.length
     }
 
+    /// Whether it has dashpots.
+    pub(crate) fn is_damped(&self) -> bool {
+        self.section.axial_damping != 0.0 || self.section.bending_damping != 0.0
+    }
+
     /// Mass of a length (kg/m).
     pub(crate) fn line_mass(&self) -> f64 {
         self.section.line_mass
@@ -173,10 +178,10 @@ impl Beam {
 
     /// Power that its dashpots take (W).
     pub(crate) fn dissipation(&self, y: &[f64; 6], rate: &[f64; 6]) -> f64 {
-        let BeamSection { axial_damping, bending_damping, .. } = self.section;
-        if axial_damping == 0.0 && bending_damping == 0.0 {
+        if !self.is_damped() {
             return 0.0;
         }
+        let BeamSection { axial_damping, bending_damping, .. } = self.section;
         let [e, f @ ..] = self.deformed(y).rates(rate);
         let [a, b] = self.bend(f);
         (axial_damping * e * e + bending_damping * (f[0] * a + f[1] * b)) / self.length
@@ -187,10 +192,9 @@ impl Beam {
     }
 
     /// N, M_a, M_b at these strains and strain rates.
-    fn forces(&self, d: &Deformed, rate: &[f64; 6]) -> [f64; 3] {
+    fn forces(&self, d: &Deformed, [de, df @ ..]: [f64; 3]) -> [f64; 3] {
         let BeamSection { axial, bending, axial_damping, bending_damping, .. } = self.section;
         let [e, f @ ..] = d.strain;
-        let [de, df @ ..] = d.rates(rate);
         let bent = [0, 1].map(|i| bending * f[i] + bending_damping * df[i]);
         let [a, b] = self.bend(bent);
         [(axial * e + axial_damping * de) / self.length, a / self.length, b / self.length]
@@ -205,7 +209,7 @@ impl Beam {
     /// What it bears at y, y'.
     pub(crate) fn bearing(&self, y: &[f64; 6], rate: &[f64; 6]) -> BeamForces {
         let d = self.deformed(y);
-        let [axial, a, b] = self.forces(&d, rate);
+        let [axial, a, b] = self.forces(&d, d.rates(rate));
         BeamForces { axial, shear: (a + b) / d.length, moments: [a, b] }
     }
 
@@ -232,7 +236,18 @@ impl Beam {
     /// dashpots resist [N, N m].
     pub(crate) fn resistance(&self, y: &[f64; 6], rate: &[f64; 6]) -> [f64; 6] {
         let d = self.deformed(y);
-        let [n, a, b] = self.forces(&d, rate);
+        self.resisted(&d, d.rates(rate))
+    }
+
+    /// The same if the dashpots resist the change of strain since the configuration `from`, in
+    /// `over` (s).
+    pub(crate) fn resistance_since(&self, y: &[f64; 6], from: &[f64; 6], over: f64) -> [f64; 6] {
+        let d = self.deformed(y);
+        self.resisted(&d, self.rates_since(&d, from, over))
+    }
+
+    fn resisted(&self, d: &Deformed, strain_rates: [f64; 3]) -> [f64; 6] {
+        let [n, a, b] = self.forces(d, strain_rates);
         let mut force = [0.0; 6];
         for (k, force) in force.iter_mut().enumerate() {
             *force = n * d.along[k] - (a + b) * d.turn[k];
@@ -242,11 +257,32 @@ impl Beam {
         force
     }
 
+    /// Change of the strains from another configuration, over a time (s).
+    fn rates_since(&self, d: &Deformed, from: &[f64; 6], over: f64) -> [f64; 3] {
+        if !self.is_damped() {
+            return [0.0; 3];
+        }
+        let before = self.deformed(from).strain;
+        [0, 1, 2].map(|k| (d.strain[k] - before[k]) / over)
+    }
+
     /// The resistance's derivatives by y and by y'.
     pub(crate) fn tangent(&self, y: &[f64; 6], rate: &[f64; 6]) -> [[[f64; 6]; 6]; 2] {
-        let BeamSection { axial, bending, axial_damping, bending_damping, .. } = self.section;
         let d = self.deformed(y);
-        let [n, a, b] = self.forces(&d, rate);
+        self.slopes(&d, d.rates(rate), rate)
+    }
+
+    /// Derivative by y of [`Self::resistance_since`].
+    pub(crate) fn tangent_since(&self, y: &[f64; 6], from: &[f64; 6], over: f64) -> [[f64; 6]; 6] {
+        let d = self.deformed(y);
+        let [k, c] = self.slopes(&d, self.rates_since(&d, from, over), &[0.0; 6]);
+        std::array::from_fn(|i| std::array::from_fn(|j| k[i][j] + c[i][j] / over))
+    }
+
+    /// The derivatives at these strain rates, which change with y as y' has it.
+    fn slopes(&self, d: &Deformed, strain_rates: [f64; 3], rate: &[f64; 6]) -> [[[f64; 6]; 6]; 2] {
+        let BeamSection { axial, bending, axial_damping, bending_damping, .. } = self.section;
+        let [n, a, b] = self.forces(d, strain_rates);
         let ends = [0, 1].map(|i| {
             let mut slope = d.turn.map(|x| -x);
             slope[TURN[i]] += 1.0;

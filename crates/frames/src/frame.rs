@@ -32,6 +32,7 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 pub use base::Base;
 pub use builders::{Cantilever, Footing, LeggedFrame, Portal, StraightMember};
 pub use equilibrium::{EquilibriumError, Support};
+pub use forces::StrainRates;
 pub use layout::{FrameDamper, FrameError, FrameLayout, FrameMember, FrameTendon, Node, NodePoint};
 pub use place::{PlaceOnNode, Reach};
 

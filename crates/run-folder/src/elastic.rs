@@ -11,7 +11,9 @@ use crate::{
     texts::RunTexts,
 };
 use cases::{Asked, ElasticCase};
-use decks::{ACCURACY, CornerProgram, DeckFormat, ElasticDeck, ExportError, samples_to};
+use decks::{
+    ACCURACY, CornerHistory, CornerProgram, DeckFormat, ElasticDeck, ExportError, samples_to,
+};
 use dynamics::spring::{Chain, Springs};
 use figures::Figure;
 use frames::{
@@ -45,7 +47,6 @@ pub mod pictures;
 mod stepped;
 pub mod words;
 
-use stepped::CornerHistory;
 pub use stepped::stepped_deck;
 
 use bearing::ForceQuantities;

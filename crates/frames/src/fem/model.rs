@@ -22,7 +22,7 @@
 use nalgebra::DVector;
 
 use crate::{
-    frame::{EquilibriumError, Frame, Support},
+    frame::{EquilibriumError, Frame, StrainRates, Support},
     mechanics::Mechanics,
 };
 use dynamics::spring::{Chain, Springs};
@@ -179,7 +179,8 @@ impl<'a> ElasticModel<'a> {
         out: &mut [f64],
     ) {
         let n = self.n;
-        self.frame.forces(&q[..n], &v[..n], ground, &mut out[..n]);
+        let state = (&q[..n], &v[..n]);
+        self.frame.forces(state, StrainRates::OfVelocities, ground, &mut out[..n]);
         for (i, (foot, Springs { vertical, horizontal })) in feet.iter().zip(self.units).enumerate()
         {
             let at = absorber(n, i);

@@ -7,6 +7,7 @@ use super::{
     lu::{Lu, MatrixEntry},
     model::{CornerState, ElasticModel, absorber},
 };
+use crate::frame::StrainRates;
 use dynamics::{fem::condensed::Condensed, spring::Springs};
 
 /// The frame's share of the matrix at one state: -dF/dq with the corners' turning levers, -dF/dq',
@@ -37,7 +38,8 @@ impl Tangent {
         feet: &[CornerState],
     ) {
         let n = model.n;
-        model.frame.slopes(&q[..n], &v[..n], &mut self.k, &mut self.c);
+        let state = (&q[..n], &v[..n]);
+        model.frame.slopes(state, StrainRates::OfVelocities, &mut self.k, &mut self.c);
         for (i, (foot, corner)) in feet.iter().zip(model.frame.places()).enumerate() {
             let reach = corner.reach(q);
             self.slopes[i] = reach.slope;

@@ -8,6 +8,21 @@ use super::{Base, Frame, FrameTendon, NONE, PlaceOnNode, gather};
 use crate::mechanics::{Corner, Mechanics};
 use rocking::scalar::GRAVITY;
 
+/// Where dashpots of beams take the rates of their strains from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StrainRates<'a> {
+    /// The velocities.
+    OfVelocities,
+    /// The change of the strains since coordinates `from` (m, rad), in `over` (s): OpenSees'
+    /// damping objects.
+    OfChange {
+        /// Coordinates then.
+        from: &'a [f64],
+        /// Time since then (s).
+        over: f64,
+    },
+}
+
 /// A tendon that pulls.
 struct TendonPull {
     /// (N)
@@ -99,14 +114,25 @@ impl Frame {
     }
 
     /// Q at ground acceleration (a_g, a_v), in place of what is in `out`.
-    pub fn forces(&self, q: &[f64], v: &[f64], [ground, up]: [f64; 2], out: &mut [f64]) {
+    pub fn forces(
+        &self,
+        (q, v): (&[f64], &[f64]),
+        rates: StrainRates,
+        [ground, up]: [f64; 2],
+        out: &mut [f64],
+    ) {
         let [mx, mz] = &self.pull;
         for (k, out) in out.iter_mut().enumerate() {
             *out = -(mx[k] * ground + mz[k] * (GRAVITY + up));
         }
         for element in &self.elements {
-            let force =
-                element.beam.resistance(&gather(&element.index, q), &gather(&element.index, v));
+            let (beam, y) = (&element.beam, gather(&element.index, q));
+            let force = match rates {
+                StrainRates::OfVelocities => beam.resistance(&y, &gather(&element.index, v)),
+                StrainRates::OfChange { from, over } => {
+                    beam.resistance_since(&y, &gather(&element.index, from), over)
+                }
+            };
             for (k, f) in element.index.into_iter().zip(force) {
                 if k != NONE {
                     out[k] -= f;
@@ -127,12 +153,23 @@ impl Frame {
     }
 
     /// -dQ/dq and -dQ/dq', in place of what is in `k` and `c`.
-    pub fn slopes(&self, q: &[f64], v: &[f64], k: &mut DMatrix<f64>, c: &mut DMatrix<f64>) {
+    pub fn slopes(
+        &self,
+        (q, v): (&[f64], &[f64]),
+        rates: StrainRates,
+        k: &mut DMatrix<f64>,
+        c: &mut DMatrix<f64>,
+    ) {
         k.fill(0.0);
         c.fill(0.0);
         for element in &self.elements {
-            let [ke, ce] =
-                element.beam.tangent(&gather(&element.index, q), &gather(&element.index, v));
+            let (beam, y) = (&element.beam, gather(&element.index, q));
+            let [ke, ce] = match rates {
+                StrainRates::OfVelocities => beam.tangent(&y, &gather(&element.index, v)),
+                StrainRates::OfChange { from, over } => {
+                    [beam.tangent_since(&y, &gather(&element.index, from), over), [[0.0; 6]; 6]]
+                }
+            };
             for (i, &row) in element.index.iter().enumerate().filter(|(_, row)| **row != NONE) {
                 for (j, &column) in
                     element.index.iter().enumerate().filter(|(_, column)| **column != NONE)
@@ -252,14 +289,15 @@ impl Mechanics for Frame {
 
     fn force(&self, q: &DVector<f64>, v: &DVector<f64>, ground: [f64; 2]) -> DVector<f64> {
         let mut out = DVector::zeros(self.size);
-        self.forces(q.as_slice(), v.as_slice(), ground, out.as_mut_slice());
+        let state = (q.as_slice(), v.as_slice());
+        self.forces(state, StrainRates::OfVelocities, ground, out.as_mut_slice());
         out
     }
 
     fn tangent(&self, q: &DVector<f64>, v: &DVector<f64>, _: [f64; 2]) -> [DMatrix<f64>; 2] {
         let mut both = [DMatrix::zeros(self.size, self.size), DMatrix::zeros(self.size, self.size)];
         let [k, c] = &mut both;
-        self.slopes(q.as_slice(), v.as_slice(), k, c);
+        self.slopes((q.as_slice(), v.as_slice()), StrainRates::OfVelocities, k, c);
         both
     }
 

@@ -1,16 +1,14 @@
 //! Decks of an elastic structure for programs with steps of one size, and what such steps find.
 
 use super::{ElasticRun, deck_of};
-use decks::{ACCURACY, CornerProgram, DeckFormat, ExportError, SteppedDeck, samples_to};
+use decks::{
+    ACCURACY, CornerHistory, CornerProgram, DeckFormat, ExportError, SteppedDeck, samples_to,
+};
 use frames::assembled::Assembled;
 use parameters::program::{CornerUnits, ProgramOnRecord, ProgramRow};
 use report::predictable_to;
 use results::FiledFinding;
 use strong_motion::Record;
-
-/// Coordinates at every sample as a program with fixed time steps finds them, and when it gives up
-/// (s).
-pub(super) type CornerHistory = (Vec<Vec<f64>>, Option<f64>);
 
 /// The deck for a program with fixed time steps, on its springs. It compares its history up to
 /// when the motion can be predicted, `until` (s); all of it if there is no such time.
@@ -24,7 +22,7 @@ pub fn stepped_deck(
     format: DeckFormat,
     until: Option<f64>,
 ) -> Result<SteppedDeck, ExportError> {
-    let history = program.history(assembled, record)?;
+    let history = program.history_in_deck(assembled, record, format)?;
     stepped_deck_of((assembled, program), record, format, &history, until)
 }
 
@@ -32,11 +30,12 @@ fn stepped_deck_of(
     (assembled, program): (&Assembled, &CornerProgram),
     record: &Record,
     format: DeckFormat,
-    (history, gives_up_s): &CornerHistory,
+    CornerHistory { coordinates, gives_up_s, foretold_s }: &CornerHistory,
     until: Option<f64>,
 ) -> Result<SteppedDeck, ExportError> {
+    let until = [until, *foretold_s].into_iter().flatten().min_by(f64::total_cmp);
     let springs = (&program.row.units.chains()[..], Some(program));
-    let text = deck_of(assembled, springs, record, (history, until), (format, ACCURACY))?;
+    let text = deck_of(assembled, springs, record, (coordinates, until), (format, ACCURACY))?;
     Ok(SteppedDeck { text, gives_up_s: *gives_up_s, until })
 }
 
@@ -44,22 +43,22 @@ impl ElasticRun {
     /// What a program with fixed time steps would find on the record, beside the reference: up to
     /// when its motion can be predicted, these being the findings.
     pub(super) fn program_on_record(&self, findings: &[FiledFinding]) -> Option<ProgramOnRecord> {
-        let (history, gives_up) = self.program_history.as_ref()?;
+        let CornerHistory { coordinates, gives_up_s, .. } = self.program_history.as_ref()?;
         let frame = &self.assembled.frame;
         let tops = self.assembled.watched.iter().map(|watched| watched.top);
         let top = |q: &Vec<f64>| {
             tops.clone().map(|top| frame.displacement(top, q)[0].abs()).fold(0.0, f64::max)
         };
         let samples = samples_to(predictable_to(findings), self.record.dt, self.record.len());
-        let whole = history.len() >= samples
+        let whole = coordinates.len() >= samples
             && self.answer.histories.falls(self.assembled.structure.body().alpha()).is_none();
-        let found = history.iter().take(samples).map(top).fold(0.0, f64::max);
+        let found = coordinates.iter().take(samples).map(top).fold(0.0, f64::max);
         let pair = self.parts().foretold_peaks(findings);
         let reference = match pair.foretold {
             Some(part) => part.top_displacement_m[0],
             None => pair.reference.top_displacement_m,
         };
-        Some(ProgramOnRecord::of(whole.then_some([found, reference]), *gives_up))
+        Some(ProgramOnRecord::of(whole.then_some([found, reference]), *gives_up_s))
     }
 
     /// A deck for a program with fixed time steps.
@@ -70,7 +69,7 @@ impl ElasticRun {
     ) -> Result<SteppedDeck, ExportError> {
         let until = predictable_to(&self.parameters.findings);
         let program = CornerProgram::even(row);
-        match &self.program_history {
+        match self.program_history.as_ref().filter(|_| program.is_of(format)) {
             Some(history) => {
                 let model = (&self.assembled, &program);
                 stepped_deck_of(model, &self.record, format, history, until)
