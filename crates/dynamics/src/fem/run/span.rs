@@ -75,7 +75,7 @@ impl TimeLoop<'_> {
         if !(leans && simple && self.control.long_steps && self.h >= 2.0 * dt) {
             return None;
         }
-        if self.interval > self.event_by + 1 {
+        if self.interval > self.event_by.saturating_add(1) {
             self.event_by = usize::MAX;
         }
         let left = (self.motion.accel.len() - 1 - self.interval)
