@@ -65,8 +65,8 @@ pub struct AccuracyReport {
 }
 
 impl AccuracyReport {
-    /// Of a rigid body's springs.
-    pub(crate) fn of_rigid(a: &Assessment) -> Self {
+    /// Of a rigid body's springs, which are judged without its members, if it has any.
+    pub(crate) fn of_rigid(a: &Assessment, has_members: bool) -> Self {
         let (history, each) = (&a.measured, a.measured_peaks);
         let peaks = each.map(|peaks| peaks.largest);
         let worst = |of: fn(&PeakAccuracy) -> Option<PeakErrors>| {
@@ -103,12 +103,11 @@ impl AccuracyReport {
         let looser = a.judged().looser_on_earthquakes();
         let words = |n| format!("{n} earthquake-like ones (mean)");
         let mean = statistics(|a| a.earthquakes_mean, words, looser, worst(|p| p.earthquakes_mean));
-        Self {
-            history_asked: of_history,
-            peaks_asked: of_peaks,
-            reached: a.reached,
-            measured: [record, median, p90, mean].into_iter().flatten().collect(),
+        let mut measured: Vec<_> = [record, median, p90, mean].into_iter().flatten().collect();
+        if let Some(first) = measured.first_mut().filter(|_| has_members) {
+            first.on.push_str(", without members");
         }
+        Self { history_asked: of_history, peaks_asked: of_peaks, reached: a.reached, measured }
     }
 
     /// In one sentence, peaks first.

@@ -308,7 +308,9 @@ fn alone(parameters: Parameters) -> Run {
         true => filed(springs_findings(&parameters)),
         false => parameters.findings.clone(),
     };
-    let accuracy = parameters.assessment.as_ref().map(AccuracyReport::of_rigid);
+    let has_members = !parameters.members().is_none();
+    let assessment = parameters.assessment.as_ref();
+    let accuracy = assessment.map(|of| AccuracyReport::of_rigid(of, has_members));
     Run {
         taken: taken(&parameters.structure, parameters.restitution(), &parameters.members()),
         reference: super::HOUSNER,
