@@ -1,9 +1,11 @@
 //! Derivatives through uplifts and impacts against finite differences of the f64 run.
 
 use num_dual::{Dual64, DualNum};
-use rocking::housner::{RockingOptions, released, solve, solve_with_derivatives};
+use rocking::housner::{released, solve, solve_with_derivatives};
 use rocking::structure::{Body, Structure};
 use strong_motion::Record;
+
+use super::{scaled, twenty_seconds};
 
 /// d/dx of a history by central differences of order 4.
 fn differences(f: impl Fn(f64) -> Vec<f64>, step: f64) -> Vec<f64> {
@@ -33,11 +35,9 @@ fn wide<S: DualNum<f64> + Copy>(body: Body<f64>, relative: S) -> Body<S> {
 fn theta_by_width_on_el_centro_through_twelve_impacts() {
     let body = Structure::paper().body::<f64>();
     let accel = Record::el_centro().accel;
-    let dual_options =
-        RockingOptions { duration: Some(20.0), ..RockingOptions::<Dual64>::default() };
-    let dual =
-        solve_with_derivatives(&wide(body, Dual64::new(0.0, 1.0)), 0.01, &accel, &dual_options);
-    let options = RockingOptions { duration: Some(20.0), ..RockingOptions::default() };
+    let dual = wide(body, Dual64::new(0.0, 1.0));
+    let dual = solve_with_derivatives(&dual, 0.01, &accel, &twenty_seconds());
+    let options = twenty_seconds();
     let expected = differences(|x| solve(&wide(body, x), 0.01, &accel, &options).theta, 1e-5);
     let exact: Vec<f64> = dual.theta.iter().map(|theta| theta.eps).collect();
     let error = relative_error(&exact, &expected);
@@ -53,11 +53,9 @@ fn theta_by_width_on_el_centro_through_twelve_impacts() {
 fn theta_by_scale_on_el_centro_of_a_solid_block() {
     let body = Structure::block(4.0, 1.0, 100.0).unwrap().body::<f64>();
     let accel = &Record::el_centro().accel[..600];
-    let run = |scale: f64| {
-        solve(&body, 0.01, accel, &RockingOptions { scale, ..RockingOptions::default() })
-    };
+    let run = |scale: f64| solve(&body, 0.01, accel, &scaled(scale));
     let dual_body = Structure::block(4.0, 1.0, 100.0).unwrap().body::<Dual64>();
-    let options = RockingOptions { scale: Dual64::new(1.5, 1.0), ..RockingOptions::default() };
+    let options = scaled(Dual64::new(1.5, 1.0));
     let exact: Vec<f64> = solve_with_derivatives(&dual_body, 0.01, accel, &options)
         .theta
         .iter()
@@ -73,16 +71,9 @@ fn theta_by_scale_on_el_centro_of_a_solid_block() {
 fn impact_and_uplift_times_carry_derivatives() {
     let body = Structure::paper().body::<f64>();
     let accel = Record::el_centro().accel;
-    let options = RockingOptions { duration: Some(20.0), ..RockingOptions::<Dual64>::default() };
-    let dual = solve_with_derivatives(&wide(body, Dual64::new(0.0, 1.0)), 0.01, &accel, &options);
-    let run = |x: f64| {
-        solve(
-            &wide(body, x),
-            0.01,
-            &accel,
-            &RockingOptions { duration: Some(20.0), ..RockingOptions::default() },
-        )
-    };
+    let dual = wide(body, Dual64::new(0.0, 1.0));
+    let dual = solve_with_derivatives(&dual, 0.01, &accel, &twenty_seconds());
+    let run = |x: f64| solve(&wide(body, x), 0.01, &accel, &twenty_seconds());
     let expected = differences(|x| run(x).impacts.iter().map(|impact| impact.time).collect(), 1e-5);
     for (impact, expected) in dual.impacts.iter().zip(&expected) {
         assert!(

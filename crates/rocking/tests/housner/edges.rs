@@ -85,11 +85,7 @@ fn an_impact_at_a_sample_is_one_impact() {
 fn two_impacts_in_one_sample_are_both_found() {
     // down at 1e-4 rad with hops of 2 v/d: a coarse sample holds several
     let body = block();
-    let options = RockingOptions {
-        initial: Some((1e-4, 0.0)),
-        restitution: Some(0.8),
-        ..RockingOptions::default()
-    };
+    let options = RockingOptions { restitution: Some(0.8), ..released(1e-4, 0.0) };
     let coarse = solve(&body, 0.05, &[0.0; 20], &options);
     let fine = solve(&body, 0.0005, &[0.0; 2000], &options);
     let in_second = |time: f64| (0.05..0.1).contains(&time);
@@ -122,11 +118,7 @@ fn restitution_zero_rests_at_the_first_landing_and_lifts_again() {
     let body = block();
     let mut accel = vec![0.0; 300];
     accel[200..].fill(-1.5 * LIMIT);
-    let options = RockingOptions {
-        initial: Some((0.3 * body.alpha(), 0.0)),
-        restitution: Some(0.0),
-        ..RockingOptions::default()
-    };
+    let options = RockingOptions { restitution: Some(0.0), ..released(0.3 * body.alpha(), 0.0) };
     let rocking = solve(&body, 0.01, &accel, &options);
     assert_eq!(rocking.impacts[0].rate_after, 0.0);
     let landed = (rocking.impacts[0].time / 0.01) as usize + 1;
@@ -139,11 +131,7 @@ fn restitution_zero_rests_at_the_first_landing_and_lifts_again() {
 fn restitution_one_keeps_its_energy_over_hundreds_of_impacts() {
     let body = block();
     let (alpha, p2) = (body.alpha(), body.p_squared());
-    let options = RockingOptions {
-        initial: Some((0.2 * alpha, 0.0)),
-        restitution: Some(1.0),
-        ..RockingOptions::default()
-    };
+    let options = RockingOptions { restitution: Some(1.0), ..released(0.2 * alpha, 0.0) };
     let rocking = solve(&body, 0.02, &vec![0.0; 20_000], &options);
     assert!(rocking.impacts.len() > 200);
     let first = rocking.impacts[0].rate_after.abs();
@@ -187,11 +175,7 @@ fn overturning_follows_the_energy_barrier() {
     let i = (time / 0.01) as usize;
     assert!(over.theta[i] < body.alpha() && over.theta[i + 1] >= body.alpha());
     // a history that ends beyond alpha, still falling
-    let options = RockingOptions {
-        initial: Some((0.0, barrier * 1.1)),
-        duration: Some(0.9),
-        ..RockingOptions::default()
-    };
+    let options = RockingOptions { duration: Some(0.9), ..released(0.0, barrier * 1.1) };
     let cut = solve(&body, 0.01, &[0.0; 3000], &options);
     assert_eq!(cut.theta.len(), 91);
     assert!(cut.theta[90] > body.alpha());
@@ -238,12 +222,7 @@ fn a_start_at_the_ground_without_a_rate_moves_only_if_pushed() {
 #[test]
 fn elastic_hops_too_small_to_end_stop_at_the_work_bound() {
     let body = block();
-    let options = RockingOptions {
-        initial: Some((1e-12, 0.0)),
-        restitution: Some(1.0),
-        max_work: 1000,
-        ..RockingOptions::default()
-    };
+    let options = RockingOptions { restitution: Some(1.0), max_work: 1000, ..released(1e-12, 0.0) };
     let rocking = solve(&body, 0.05, &[0.0; 100], &options);
     assert!(matches!(rocking.outcome, RockingOutcome::WorkBound { .. }));
     assert!(rocking.theta.len() < 100);

@@ -1,18 +1,16 @@
 //! The paper's A-frame on El Centro, against float128 values of an independent Taylor program
 //! (degree 26).
 
-use rocking::housner::{RockingOptions, RockingOutcome, solve};
+use rocking::housner::{RockingOutcome, solve};
 use rocking::motion::peak;
 use rocking::structure::Structure;
 
 use strong_motion::Record;
 
+use super::twenty_seconds;
+
 fn el_centro() -> Vec<f64> {
     Record::el_centro().accel
-}
-
-fn twenty_seconds() -> RockingOptions<f64> {
-    RockingOptions { duration: Some(20.0), ..RockingOptions::default() }
 }
 
 #[test]

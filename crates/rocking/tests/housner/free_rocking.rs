@@ -29,11 +29,8 @@ fn amplitudes(body: &Body<f64>, rates: &[f64]) -> Vec<f64> {
 #[test]
 fn amplitudes_fall_as_in_theory() {
     let body = slender();
-    let options = RockingOptions {
-        restitution: Some(99.0 / 101.0),
-        initial: Some((0.5 * body.alpha(), 0.0)),
-        ..RockingOptions::default()
-    };
+    let options =
+        RockingOptions { restitution: Some(99.0 / 101.0), ..released(0.5 * body.alpha(), 0.0) };
     let rocking = solve(&body, 0.01, &[0.0; 4000], &options);
     let rates: Vec<f64> = rocking.impacts.iter().map(|impact| impact.rate_after).collect();
     for (phi, expected) in
@@ -50,11 +47,8 @@ fn the_period_is_4_over_p_acosh_1_over_1_minus_phi() {
     let body = slender();
     let p = body.p();
     for phi in [0.05_f64, 0.5, 0.9] {
-        let options = RockingOptions {
-            restitution: Some(1.0),
-            initial: Some((phi * body.alpha(), 0.0)),
-            ..RockingOptions::default()
-        };
+        let options =
+            RockingOptions { restitution: Some(1.0), ..released(phi * body.alpha(), 0.0) };
         let rocking = solve(&body, 0.013, &[0.0; 3000], &options);
         let period = 4.0 / p * (1.0 / (1.0 - phi)).acosh();
         for (k, impact) in rocking.impacts.iter().enumerate().take(6) {
@@ -83,11 +77,7 @@ fn the_block_of_the_theory_has_p_1_70980_and_a_period_of_3_08096_s() {
         inertia: radius * radius / 3.0,
         mass: 1.0,
     };
-    let options = RockingOptions {
-        initial: Some((0.5 * alpha, 0.0)),
-        restitution: Some(1.0),
-        ..RockingOptions::default()
-    };
+    let options = RockingOptions { restitution: Some(1.0), ..released(0.5 * alpha, 0.0) };
     let rocking = solve(&body, 0.01, &[0.0; 1000], &options);
     assert_eq!(
         format!("{:.5}", 2.0 * (rocking.impacts[1].time - rocking.impacts[0].time)),

@@ -4,13 +4,15 @@ use rocking::housner::{RockingOptions, RockingOutcome, solve, solve_lanes};
 use rocking::structure::{Body, Structure};
 use strong_motion::Record;
 
+use super::{block, scaled};
+
 /// Tall and small, frames and blocks: some never move, some rest and lift again, some overturn.
 fn bodies() -> Vec<Body<f64>> {
     let mut bodies = vec![Structure::paper().body()];
     for i in 1..20 {
         let height = 0.3 * 1.4_f64.powi(i);
         let alpha = 0.06 + 0.013 * f64::from(i);
-        bodies.push(Structure::block(height, height * alpha.tan(), 1.0).unwrap().body());
+        bodies.push(block(height, height * alpha.tan()));
         bodies.push(Structure::a_frame(height, height * alpha.tan(), 1.0).unwrap().body());
     }
     bodies
@@ -19,10 +21,7 @@ fn bodies() -> Vec<Body<f64>> {
 #[test]
 fn lanes_give_what_single_walks_give_bit_for_bit() {
     let accel = Record::el_centro().accel;
-    let options: Vec<RockingOptions<f64>> = [0.6, 1.0, 2.5]
-        .map(|scale| RockingOptions { scale, ..RockingOptions::default() })
-        .into_iter()
-        .collect();
+    let options = [0.6, 1.0, 2.5].map(scaled);
     let bodies = bodies();
     let together = solve_lanes(&bodies, 0.01, &accel, &options);
     assert_eq!(together.len(), bodies.len());

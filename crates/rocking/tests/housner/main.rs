@@ -9,6 +9,25 @@ mod reference;
 mod symmetry;
 mod vertical;
 
+use rocking::housner::RockingOptions;
+use rocking::scalar::Scalar;
+use rocking::structure::{Body, Structure};
+
+/// A solid block of 1 kg.
+fn block(height: f64, width: f64) -> Body<f64> {
+    Structure::block(height, width, 1.0).unwrap().body()
+}
+
+/// From rest, the record times a factor.
+fn scaled<S: Scalar>(scale: S) -> RockingOptions<S> {
+    RockingOptions { scale, ..RockingOptions::default() }
+}
+
+/// From rest, the first 20 s.
+fn twenty_seconds<S: Scalar>() -> RockingOptions<S> {
+    RockingOptions { duration: Some(20.0), ..RockingOptions::default() }
+}
+
 /// Four sines that swell for two seconds (g), rounded to 6 digits so that every program reads the
 /// same numbers.
 fn noise(dt: f64, seconds: f64) -> Vec<f64> {

@@ -1,12 +1,14 @@
 //! The same case mirrored, shifted in time, in other units, scaled by similarity: the same answer.
 
-use rocking::housner::{RockingOptions, history, solve};
+use rocking::housner::{history, solve};
 use rocking::structure::Structure;
 use strong_motion::{ReadOptions, Record};
 
+use super::{block, scaled};
+
 #[test]
 fn a_mirrored_record_gives_the_mirrored_history_bit_for_bit() {
-    let body = Structure::block(3.0, 0.7, 1.0).unwrap().body::<f64>();
+    let body = block(3.0, 0.7);
     let accel = Record::el_centro().accel;
     let mirrored: Vec<f64> = accel.iter().map(|a| -a).collect();
     let here = history(&body, 0.01, &accel);
@@ -18,7 +20,7 @@ fn a_mirrored_record_gives_the_mirrored_history_bit_for_bit() {
 
 #[test]
 fn quiet_samples_before_a_record_only_shift_the_history() {
-    let body = Structure::block(3.0, 0.7, 1.0).unwrap().body::<f64>();
+    let body = block(3.0, 0.7);
     let accel = Record::el_centro().accel;
     let mut shifted = vec![0.0; 137];
     shifted.extend_from_slice(&accel);
@@ -33,7 +35,7 @@ fn quiet_samples_before_a_record_only_shift_the_history() {
 #[test]
 fn a_similar_body_on_a_similar_record_has_the_same_angles() {
     let accel = Record::el_centro().accel;
-    let small = history(&Structure::block(3.0, 0.7, 1.0).unwrap().body::<f64>(), 0.01, &accel);
+    let small = history(&block(3.0, 0.7), 0.01, &accel);
     let large = history(&Structure::block(12.0, 2.8, 64.0).unwrap().body::<f64>(), 0.02, &accel);
     assert_eq!(small.impacts.len(), large.impacts.len());
     for (a, b) in small.theta.iter().zip(&large.theta) {
@@ -43,7 +45,7 @@ fn a_similar_body_on_a_similar_record_has_the_same_angles() {
 
 #[test]
 fn a_record_file_in_g_or_centimetres_gives_the_same_history() {
-    let body = Structure::block(3.0, 0.7, 1.0).unwrap().body::<f64>();
+    let body = block(3.0, 0.7);
     let record = Record::el_centro();
     let one = history(&body, record.dt, &record.accel);
     for (header, unit) in [("g", 9.81), ("m/s2", 1.0), ("cm/s2", 0.01)] {
@@ -70,7 +72,7 @@ fn a_mass_in_tonnes_gives_the_same_history() {
 /// Resampling a piecewise linear record changes nothing but where the steps end.
 #[test]
 fn a_record_sampled_four_times_finer_gives_the_same_history() {
-    let body = Structure::block(0.6, 0.12, 1.0).unwrap().body::<f64>();
+    let body = block(0.6, 0.12);
     let coarse: Vec<f64> = Record::el_centro().accel.into_iter().take(700).collect();
     let fine: Vec<f64> = coarse
         .windows(2)
@@ -78,10 +80,8 @@ fn a_record_sampled_four_times_finer_gives_the_same_history() {
         .chain(coarse.last().copied())
         .collect();
     // 0.04 s: p dt = 0.2
-    let there =
-        solve(&body, 0.04, &coarse, &RockingOptions { scale: 0.68, ..RockingOptions::default() });
-    let here =
-        solve(&body, 0.01, &fine, &RockingOptions { scale: 0.68, ..RockingOptions::default() });
+    let there = solve(&body, 0.04, &coarse, &scaled(0.68));
+    let here = solve(&body, 0.01, &fine, &scaled(0.68));
     assert!(here.impacts.len() > 10, "{} {:?}", here.impacts.len(), here.outcome);
     for (a, b) in there.theta.iter().zip(here.theta.iter().step_by(4)) {
         assert!((a - b).abs() < 1e-12, "{a} {b}");

@@ -6,11 +6,14 @@ use std::sync::Arc;
 
 use num_dual::Dual64;
 use rocking::housner::{
-    Rocking, RockingOptions, RockingOutcome, history, solve, solve_lanes, solve_with_derivatives,
+    Rocking, RockingOptions, RockingOutcome, history, released, solve, solve_lanes,
+    solve_with_derivatives,
 };
 use rocking::scalar::GRAVITY;
 use rocking::structure::{Body, Structure};
 use strong_motion::Record;
+
+use super::{block, scaled};
 
 fn with<S: Clone>(vertical: &[f64], options: &RockingOptions<S>) -> RockingOptions<S> {
     RockingOptions { vertical: Some(Arc::from(vertical)), ..options.clone() }
@@ -26,32 +29,17 @@ fn vertical(factor: f64) -> Vec<f64> {
 /// Constant a_v = kappa g: time divided by sqrt(1 + kappa), a_g divided by 1 + kappa.
 #[test]
 fn a_constant_vertical_acceleration_is_another_gravity() {
-    let body = Structure::block(3.0, 0.7, 1.0).unwrap().body::<f64>();
+    let body = block(3.0, 0.7);
     let accel: Vec<f64> = Record::el_centro().accel.into_iter().take(1500).collect();
     for kappa in [-0.4, 0.3, 1.2] {
         let constant = vec![kappa * GRAVITY; accel.len()];
         let scale = 1.1 * (1.0 + kappa);
-        let there = solve(
-            &body,
-            0.01,
-            &accel,
-            &with(&constant, &RockingOptions { scale, ..RockingOptions::default() }),
-        );
+        let there = solve(&body, 0.01, &accel, &with(&constant, &scaled(scale)));
         // the scale is on both components
         let vertical: Vec<f64> = constant.iter().map(|a| a / scale).collect();
-        let here = solve(
-            &body,
-            0.01,
-            &accel,
-            &with(&vertical, &RockingOptions { scale, ..RockingOptions::default() }),
-        );
+        let here = solve(&body, 0.01, &accel, &with(&vertical, &scaled(scale)));
         let dt = 0.01 * f64::sqrt(1.0 + kappa);
-        let level = solve(
-            &body,
-            dt,
-            &accel,
-            &RockingOptions { scale: scale / (1.0 + kappa), ..RockingOptions::default() },
-        );
+        let level = solve(&body, dt, &accel, &scaled(scale / (1.0 + kappa)));
         assert!(level.impacts.len() > 5, "{kappa} {}", level.impacts.len());
         assert_eq!(
             (here.impacts.len(), here.outcome),
@@ -111,7 +99,7 @@ fn a_block_on_a_sine_with_and_without_vertical_motion() {
 #[test]
 fn a_ground_that_does_not_move_up_gives_the_same_history() {
     let accel = Record::el_centro().accel;
-    let body = Structure::block(3.0, 0.7, 1.0).unwrap().body::<f64>();
+    let body = block(3.0, 0.7);
     let without = history(&body, 0.01, &accel);
     // a vertical record may be shorter: the ground then moves no more
     for zeros in [vec![0.0; accel.len()], vec![0.0; 10], Vec::new()] {
@@ -124,7 +112,7 @@ fn a_ground_that_does_not_move_up_gives_the_same_history() {
 /// Resampling a piecewise linear ground changes nothing but where the steps end.
 #[test]
 fn a_ground_sampled_four_times_finer_gives_the_same_history() {
-    let body = Structure::block(0.6, 0.12, 1.0).unwrap().body::<f64>();
+    let body = block(0.6, 0.12);
     let fine = |coarse: &[f64]| -> Vec<f64> {
         let between = coarse
             .windows(2)
@@ -132,7 +120,7 @@ fn a_ground_sampled_four_times_finer_gives_the_same_history() {
         between.chain(coarse.last().copied()).collect()
     };
     let (accel, up) = (Record::el_centro().accel[..700].to_vec(), vertical(0.9)[..700].to_vec());
-    let options = RockingOptions { scale: 0.68, ..RockingOptions::default() };
+    let options = scaled(0.68);
     let there = solve(&body, 0.04, &accel, &with(&up, &options));
     let here = solve(&body, 0.01, &fine(&accel), &with(&fine(&up), &options));
     assert!(
@@ -151,7 +139,7 @@ fn a_ground_sampled_four_times_finer_gives_the_same_history() {
 /// (9.81/4 - 2)/35.
 #[test]
 fn uplift_is_where_the_falling_limit_is_met() {
-    let body = Structure::block(4.0, 1.0, 1.0).unwrap().body::<f64>();
+    let body = block(4.0, 1.0);
     let (accel, up) = ([-2.0, -4.0], [0.0, -6.0]);
     let found = solve(&body, 0.1, &accel, &with(&up, &RockingOptions::default()));
     assert!(
@@ -164,7 +152,7 @@ fn uplift_is_where_the_falling_limit_is_met() {
 
 #[test]
 fn a_body_at_rest_leaves_a_ground_that_falls_faster_than_it() {
-    let body = Structure::block(4.0, 1.0, 1.0).unwrap().body::<f64>();
+    let body = block(4.0, 1.0);
     let up = [0.0, -5.0, -15.0, -15.0, 0.0];
     let found = solve(&body, 0.1, &[0.0; 5], &with(&up, &RockingOptions::default()));
     let RockingOutcome::LeavesGround { time } = found.outcome else {
@@ -226,7 +214,7 @@ fn loss_of_contact_is_located_as_a_fine_integration_finds_it() {
         let up: Vec<f64> =
             (0..40).map(|i| -1.4 * GRAVITY * (PI * f64::from(i) / 30.0).sin()).collect();
         let accel: Vec<f64> = (0..40).map(|i| 0.2 * GRAVITY * (0.7 * f64::from(i)).sin()).collect();
-        let options = RockingOptions { initial: Some(start), ..RockingOptions::default() };
+        let options = released(start.0, start.1);
         let found = solve(&body, 0.02, &accel, &with(&up, &options));
         let RockingOutcome::LeavesGround { time } = found.outcome else {
             panic!("{:?}", found.outcome)
@@ -244,9 +232,7 @@ fn histories_end_where_the_force_at_the_samples_says_and_not_before() {
     let mut ended = [0; 2];
     for i in 0..40 {
         let height = 0.4 * 1.1_f64.powi(i);
-        let body = Structure::block(height, height * (0.15 + 0.01 * f64::from(i % 10)), 1.0)
-            .unwrap()
-            .body::<f64>();
+        let body = block(height, height * (0.15 + 0.01 * f64::from(i % 10)));
         let up = vertical(1.2 + 0.1 * f64::from(i));
         let found = solve(&body, 0.01, &accel, &with(&up, &RockingOptions::default()));
         let force = |i: usize| pressure(&body, (found.theta[i], found.rate[i]), (accel[i], up[i]));
@@ -270,7 +256,7 @@ fn lanes_give_what_single_walks_give_bit_for_bit_with_vertical_motion() {
     let bodies: Vec<Body<f64>> = (0..60)
         .map(|i| {
             let height = 0.3 * 1.12_f64.powi(i);
-            Structure::block(height, height * (0.1 + 0.005 * f64::from(i)), 1.0).unwrap().body()
+            block(height, height * (0.1 + 0.005 * f64::from(i)))
         })
         .collect();
     let options: Vec<RockingOptions<f64>> = (0..60)
@@ -296,25 +282,12 @@ fn derivatives_pass_through_uplifts_and_impacts_with_vertical_motion() {
     let run = |width: f64, scale: f64| -> Rocking<f64> {
         let body = structure.body::<f64>();
         let body = Body { half_width: body.half_width * (1.0 + width), ..body };
-        solve(
-            &body,
-            0.01,
-            &accel,
-            &with(&up, &RockingOptions { scale, ..RockingOptions::default() }),
-        )
+        solve(&body, 0.01, &accel, &with(&up, &scaled(scale)))
     };
     let dual = |width: f64, scale: f64| {
         let body = structure.body::<Dual64>();
         let body = Body { half_width: body.half_width * Dual64::new(1.0, width), ..body };
-        solve_with_derivatives(
-            &body,
-            0.01,
-            &accel,
-            &with(
-                &up,
-                &RockingOptions { scale: Dual64::new(1.5, scale), ..RockingOptions::default() },
-            ),
-        )
+        solve_with_derivatives(&body, 0.01, &accel, &with(&up, &scaled(Dual64::new(1.5, scale))))
     };
     let differences = |f: &dyn Fn(f64) -> Vec<f64>| -> Vec<f64> {
         let [a, b, c, d] = [-2e-5, -1e-5, 1e-5, 2e-5].map(f);
