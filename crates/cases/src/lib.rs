@@ -27,9 +27,6 @@
 //! step_s = 0.001
 //! ```
 
-// what is printed goes through the program's `commands/terminal`
-#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
-
 pub mod assumptions;
 pub mod doubts;
 mod elastic;

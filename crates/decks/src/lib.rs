@@ -11,9 +11,7 @@
 //! Numbers are written with 17 significant digits, so that a deck holds exactly what was tuned. SI
 //! units, except in SAP2000 where the tables say KN, m.
 
-// what is printed goes through the program's `commands/terminal`
 #![warn(missing_docs)]
-#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
 mod beside;
 mod corner_program;

@@ -24,9 +24,7 @@
 //! | [`peaks`] | peaks of two models over a sweep |
 //! | [`precision`] | run time against error of several tools |
 
-// what is printed goes through the program's `commands/terminal`
 #![warn(missing_docs)]
-#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
 use std::path::PathBuf;
 

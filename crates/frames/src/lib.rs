@@ -16,8 +16,6 @@
 //! | `design_forces` | forces to design for, and whether they are the structure's own |
 //! | `rigid`, `answer` | what the rigid body bears; all of them through one record |
 
-// what is printed goes through the program's `commands/terminal`
-#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 #![warn(missing_docs)]
 
 pub mod answer;

@@ -10,9 +10,6 @@
 //! | `certificate` | what proves that a fit is a minimum |
 //! | `inner` | all of it: `fit` |
 
-// what is printed goes through the program's `commands/terminal`
-#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
-
 pub mod bounds;
 pub mod certificate;
 mod excess;

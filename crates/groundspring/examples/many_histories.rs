@@ -5,6 +5,8 @@
 //! cargo run --release --package groundspring --example many_histories [rounds]
 //! ```
 
+#![allow(clippy::print_stdout)]
+
 use std::{f64::consts::FRAC_PI_2, time::Instant};
 
 use groundspring::{Body, Record, Rocking, RockingOptions, RockingOutcome, Structure, rock_many};

@@ -32,8 +32,6 @@
 //! are SI throughout; angles in radians; theta > 0 leans to the right, u > 0 is to the right.
 //! Formulas are generic in [`Scalar`]: `f64`, or dual numbers to differentiate with.
 
-// what is printed goes through the program's `commands/terminal`
-#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 #![warn(missing_docs)]
 
 #[doc(inline)]

@@ -10,9 +10,6 @@
 //! | `design`, `part` | springs of a rigid body from its geometry; of a footing or a foot |
 //! | `weight` | what the body's weight does to a landing |
 
-// what is printed goes through the program's `commands/terminal`
-#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
-
 pub mod chain;
 pub mod corners;
 pub mod design;

@@ -8,8 +8,6 @@
 //!
 //! No renderer knows whether the structure is rigid, and none reads another's words.
 
-// what is printed goes through the program's `commands/terminal`
-#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 #![warn(missing_docs)]
 
 pub mod accuracy;

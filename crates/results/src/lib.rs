@@ -1,9 +1,6 @@
 //! What a run found, as data: peaks, design forces, findings. Words for them are in `findings`
 //! alone; `report` lays them out.
 
-// what is printed goes through the program's `commands/terminal`
-#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
-
 pub mod findings;
 pub mod forces;
 pub mod peaks;

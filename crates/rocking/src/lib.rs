@@ -1,7 +1,5 @@
 //! Housner's rocking body: structure, history, overturning, conditioning, synthetic motions.
 
-// what is printed goes through the program's `commands/terminal`
-#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 #![warn(missing_docs)]
 
 // the same bits on every machine

@@ -7,6 +7,8 @@
 //! cargo run --release -p springs --example fixed_step_medians -- [MOTIONS] [SEED]
 //! ```
 
+#![allow(clippy::print_stdout)]
+
 use std::env;
 
 use fixed_steps::{FixedStepDesign, FixedStepSprings, Integrator, measured::WellConditioned};

@@ -5,6 +5,8 @@
 //! cargo run --release -p springs --example touches -- [MOTIONS] [SEED]
 //! ```
 
+#![allow(clippy::print_stdout)]
+
 use std::env;
 
 use fixed_steps::{FixedStepDesign, FixedStepSprings, Integrator, measured::WellConditioned};

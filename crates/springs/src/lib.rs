@@ -12,9 +12,6 @@
 //! | `elastic` | springs of elastic structures |
 //! | `at_once`, `assessment` | springs without a search; what was measured of springs |
 
-// what is printed goes through the program's `commands/terminal`
-#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
-
 pub mod assessment;
 pub mod at_once;
 pub mod capped_springs;

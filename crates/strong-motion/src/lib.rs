@@ -11,8 +11,6 @@
 //! have several components ([`Recording`]): a record is the one asked for, else the stronger
 //! horizontal one.
 
-// what is printed goes through the program's `commands/terminal`
-#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 #![warn(missing_docs)]
 
 mod at2;

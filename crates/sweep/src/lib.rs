@@ -20,9 +20,7 @@
 //! | p PGV/(g tan alpha) | the same of the velocity, p^2 = m g R/I0 | - |
 //! | q = omega/p | circular frequency of a pulse over p | - |
 
-// what is printed goes through the program's `commands/terminal`
 #![warn(missing_docs)]
-#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
 pub mod compare;
 mod error;

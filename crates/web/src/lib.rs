@@ -16,8 +16,6 @@
 //! threads: a page calls from a worker and ends the worker to stop it. On wasm32 they are exported
 //! to JavaScript; natively they are the same, for tests.
 
-// what is printed goes through the program's `commands/terminal`
-#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 #![warn(missing_docs)]
 
 mod any_case;

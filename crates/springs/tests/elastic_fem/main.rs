@@ -1,5 +1,7 @@
 //! Stories of elastic frames on ground springs: what a user may rely on, over whole histories.
 
+#![allow(clippy::print_stdout)]
+
 mod balance;
 mod common;
 mod demands;

@@ -4,6 +4,8 @@
 //! `STRESS=100000 cargo test --release --test stress` runs more of them, `STRESS_SEED=7` that one
 //! alone.
 
+#![allow(clippy::print_stderr)]
+
 mod draw;
 
 use std::{
