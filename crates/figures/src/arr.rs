@@ -7,11 +7,11 @@ use plotters::style::text_anchor::{HPos, VPos};
 use super::canvas::Canvas;
 use super::legend::{self, LegendEntry};
 use super::lettering::Lettering;
-use super::mark::{self, Mark, MarkShape};
+use super::mark::{Mark, MarkShape};
 use super::number::{brief, short};
 use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
-use super::style::{self, GREY, NUMBER, Pen, SIDES, SKY};
+use super::style::{GREY, NUMBER, Pen, SIDES, SKY};
 use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("arr");
@@ -137,16 +137,12 @@ pub fn draw(data: &ResponseFigure<'_>) -> Result<Sheet, FigureError> {
 }
 
 fn pen(curve: &UnitCurve<'_>) -> Pen {
-    let pen = Pen::new(
-        style::series(usize::from(curve.horizontal)),
-        if curve.delivered { 4.5 } else { 2.8 },
-    );
-    if curve.delivered { pen } else { pen.dashed() }
+    let pen = |width| Pen::series(usize::from(curve.horizontal), width);
+    if curve.delivered { pen(4.5) } else { pen(2.8).dashed() }
 }
 
 fn dot(curve: &UnitCurve<'_>) -> Mark {
-    let i = usize::from(curve.horizontal);
-    Mark::new(mark::series(i), 9.0, style::series(i))
+    Mark::series(usize::from(curve.horizontal))
 }
 
 /// The least and the largest of numbers above zero.

@@ -4,7 +4,7 @@ use super::canvas::Canvas;
 use super::legend::{self, LegendEntry};
 use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
-use super::style::{self, GREY, Pen, WIDTH};
+use super::style::{GREY, Pen, WIDTH};
 use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("chart");
@@ -64,19 +64,15 @@ pub fn draw(data: &ChartFigure<'_>) -> Result<Sheet, FigureError> {
         }
     }
     let pen = |curve: &ChartCurve| {
-        let pen = Pen::new(
-            style::series(alphas.iter().position(|a| *a == curve.alpha).unwrap_or(0)),
-            3.0,
-        );
+        let i = alphas.iter().position(|a| *a == curve.alpha).unwrap_or(0);
+        let pen = Pen::series(i, 3.0);
         if curve.dashed { pen.dashed() } else { pen }
     };
     let mut canvas = Canvas::default();
     let mut entries: Vec<LegendEntry> = alphas
         .iter()
         .enumerate()
-        .map(|(i, alpha)| {
-            LegendEntry::line(format!("\u{3b1} = {alpha}"), Pen::new(style::series(i), 3.0))
-        })
+        .map(|(i, alpha)| LegendEntry::line(format!("\u{3b1} = {alpha}"), Pen::series(i, 3.0)))
         .collect();
     entries.push(LegendEntry::line(data.kinds[0], Pen::new(GREY, 3.0)));
     entries.push(LegendEntry::line(data.kinds[1], Pen::new(GREY, 3.0).dashed()));

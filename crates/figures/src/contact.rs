@@ -42,9 +42,7 @@ pub struct ContactFigure<'a> {
 /// # Errors
 /// [`FigureError`] for an empty or not finite slice or slices of different lengths.
 pub fn draw(data: &ContactFigure<'_>) -> Result<Sheet, FigureError> {
-    CHECK.least("t", data.t.len(), 2)?;
-    CHECK.finite("t", data.t)?;
-    let n = data.t.len();
+    let n = CHECK.times(data.t)?;
     for (what, force) in [
         ("left_vertical", data.left_vertical),
         ("right_vertical", data.right_vertical),

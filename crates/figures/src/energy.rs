@@ -38,9 +38,7 @@ pub struct EnergyFigure<'a> {
 /// # Errors
 /// [`FigureError`] for an empty or not finite slice or slices of different lengths.
 pub fn draw(data: &EnergyFigure<'_>) -> Result<Sheet, FigureError> {
-    CHECK.least("t", data.t.len(), 2)?;
-    CHECK.finite("t", data.t)?;
-    let n = data.t.len();
+    let n = CHECK.times(data.t)?;
     let accounts =
         [("input", data.input), ("stored", data.stored), ("dissipated", data.dissipated)];
     for (what, energy) in accounts.into_iter().chain([("residual", data.residual)]) {

@@ -89,7 +89,7 @@ pub fn draw(data: &FragilityFigure<'_>) -> Result<Sheet, FigureError> {
 }
 
 fn pen(i: usize) -> Pen {
-    Pen::new(style::series(i), 3.5)
+    Pen::series(i, 3.5)
 }
 
 fn dot(i: usize) -> Mark {

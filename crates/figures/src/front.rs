@@ -6,10 +6,10 @@ use plotters::style::text_anchor::{HPos, VPos};
 use super::canvas::Canvas;
 use super::legend::{self, LegendEntry};
 use super::lettering::Lettering;
-use super::mark::{self, Mark};
+use super::mark::Mark;
 use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
-use super::style::{self, BLACK, GREY, NUMBER, Pen, SIDES, TEXT};
+use super::style::{BLACK, GREY, NUMBER, Pen, SIDES, TEXT};
 use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("front");
@@ -76,7 +76,7 @@ pub fn draw(data: &FrontFigure<'_>) -> Result<Sheet, FigureError> {
         .series
         .iter()
         .enumerate()
-        .map(|(i, s)| LegendEntry::both(s.label, solid(i), dot(i)))
+        .map(|(i, s)| LegendEntry::both(s.label, Pen::series(i, 3.0), Mark::series(i)))
         .collect();
     entries.push(LegendEntry::line("delivered", upright()));
     entries.push(LegendEntry::line("accuracy asked for", level()));
@@ -96,9 +96,9 @@ pub fn draw(data: &FrontFigure<'_>) -> Result<Sheet, FigureError> {
     panel.level(&mut canvas, data.accuracy, level());
     // The last series lies lowest: ours comes first in the list and on top in the picture.
     for (i, series) in data.series.iter().enumerate().rev() {
-        panel.curve(&mut canvas, series.omega_n_hz, series.error, solid(i));
+        panel.curve(&mut canvas, series.omega_n_hz, series.error, Pen::series(i, 3.0));
         for (&hz, &error) in series.omega_n_hz.iter().zip(series.error) {
-            dot(i).draw(&mut canvas, panel.at_clamped(hz, error));
+            Mark::series(i).draw(&mut canvas, panel.at_clamped(hz, error));
         }
     }
     let (middle, gap) = (0.5 * (left + right), 140.0);
@@ -113,9 +113,9 @@ pub fn draw(data: &FrontFigure<'_>) -> Result<Sheet, FigureError> {
         };
         panel.axes(&mut canvas, Some("Ωₙ [Hz]"), cost.label, 110.0);
         panel.upright(&mut canvas, data.chosen_hz, upright());
-        panel.curve(&mut canvas, cost.omega_n_hz, cost.value, solid(0));
+        panel.curve(&mut canvas, cost.omega_n_hz, cost.value, Pen::series(0, 3.0));
         for (&hz, &value) in cost.omega_n_hz.iter().zip(cost.value) {
-            dot(0).draw(&mut canvas, panel.at_clamped(hz, value));
+            Mark::series(0).draw(&mut canvas, panel.at_clamped(hz, value));
         }
     }
     let mut below = top + 1210.0;
@@ -136,14 +136,6 @@ fn upright() -> Pen {
 
 fn level() -> Pen {
     Pen::new(GREY, 2.0)
-}
-
-fn solid(i: usize) -> Pen {
-    Pen::new(style::series(i), 3.0)
-}
-
-fn dot(i: usize) -> Mark {
-    Mark::new(mark::series(i), 9.0, style::series(i))
 }
 
 /// error = const / Omega_n, below every point of the first series so that it crosses none of it.

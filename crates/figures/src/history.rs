@@ -122,8 +122,7 @@ pub fn draw(data: &HistoryFigure<'_>) -> Result<Sheet, FigureError> {
 }
 
 fn check(data: &HistoryFigure<'_>) -> Result<(), FigureError> {
-    CHECK.least("t", data.t.len(), 2)?;
-    CHECK.finite("t", data.t)?;
+    CHECK.times(data.t)?;
     for trace in std::iter::once(&data.reference).chain(data.others) {
         CHECK.least(trace.label, trace.u.len(), 1)?;
         if trace.u.len() > data.t.len() {
@@ -144,7 +143,7 @@ fn check(data: &HistoryFigure<'_>) -> Result<(), FigureError> {
 
 /// Thinner than the reference, which shows as a dark rim where both agree.
 fn pen(i: usize) -> Pen {
-    let pen = Pen::new(style::series(i), 2.4);
+    let pen = Pen::series(i, 2.4);
     if i == 0 { pen } else { pen.dashed() }
 }
 

@@ -6,7 +6,7 @@ use super::canvas::Canvas;
 use super::legend::{self, LegendEntry};
 use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
-use super::style::{self, GREY, PALE, Pen, SIDES};
+use super::style::{GREY, PALE, Pen, SIDES};
 use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("ida");
@@ -129,6 +129,6 @@ fn standing(levels: &[f64], peaks: &[f64]) -> (Vec<f64>, Vec<f64>) {
 }
 
 fn pen(i: usize) -> Pen {
-    let pen = Pen::new(style::series(1 - i % 2), if i == 1 { 5.0 } else { 3.0 });
+    let pen = Pen::series(1 - i % 2, if i == 1 { 5.0 } else { 3.0 });
     if i == 2 { pen.dashed() } else { pen }
 }

@@ -124,6 +124,13 @@ impl Check {
         self.each(what, values, |x| x.is_finite())
     }
 
+    /// Two times or more, all finite; how many.
+    fn times(&self, t: &[f64]) -> Result<usize, FigureError> {
+        self.least("t", t.len(), 2)?;
+        self.finite("t", t)?;
+        Ok(t.len())
+    }
+
     /// Every value passes.
     fn each(
         &self,

@@ -4,7 +4,7 @@ use plotters::style::RGBColor;
 
 use super::canvas::Canvas;
 use super::shape::PixelPoint;
-use super::style::WHITE;
+use super::style::{self, WHITE};
 
 /// A mark's shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,21 +27,24 @@ pub(crate) struct Mark {
     pub hollow: bool,
 }
 
-/// The shape of the i-th series.
-pub(crate) fn series(i: usize) -> MarkShape {
-    [
-        MarkShape::Disc,
-        MarkShape::Square,
-        MarkShape::Diamond,
-        MarkShape::Triangle,
-        MarkShape::Pennant,
-    ][i % 5]
-}
+/// Shapes of series by number; the sixth and later ones start again.
+const SERIES: [MarkShape; 5] = [
+    MarkShape::Disc,
+    MarkShape::Square,
+    MarkShape::Diamond,
+    MarkShape::Triangle,
+    MarkShape::Pennant,
+];
 
 impl Mark {
     /// A filled mark.
     pub(crate) fn new(shape: MarkShape, radius: f64, colour: RGBColor) -> Self {
         Self { shape, radius, colour, hollow: false }
+    }
+
+    /// That of the i-th series.
+    pub(crate) fn series(i: usize) -> Self {
+        Self::new(SERIES[i % SERIES.len()], 9.0, style::series(i))
     }
 
     /// The same mark, only its rim drawn.

@@ -42,6 +42,16 @@ impl PanelFrame {
     }
 }
 
+/// The cumulative distribution of sorted numbers, as a curve from the origin.
+pub(crate) fn stairs(sorted: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    let (mut x, mut y) = (vec![0.0], vec![0.0]);
+    for (i, &at) in sorted.iter().enumerate() {
+        x.extend([at, at]);
+        y.extend([i as f64, i as f64 + 1.0].map(|below| below / sorted.len() as f64));
+    }
+    (x, y)
+}
+
 /// Two axes in a frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Panel {

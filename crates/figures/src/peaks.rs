@@ -3,7 +3,7 @@
 use super::canvas::Canvas;
 use super::legend::{self, LegendEntry};
 use super::mark::{Mark, MarkShape};
-use super::panel::{Panel, PanelFrame};
+use super::panel::{Panel, PanelFrame, stairs};
 use super::scale::Scale;
 use super::style::{BLACK, BLUE, GREY, Pen, SIDES, VERMILLION};
 use super::{Check, FigureError, Sheet};
@@ -49,13 +49,9 @@ pub fn draw(data: &PeaksFigure<'_>) -> Result<Sheet, FigureError> {
     };
     panel.axes(&mut canvas, Some("peak |θ|/α"), "share of histories below", 105.0);
     for (mut peaks, pen) in [(rigid, Pen::new(BLACK, 5.0)), (fem, Pen::new(VERMILLION, 2.6))] {
+        peaks.iter_mut().for_each(|peak| *peak = peak.min(EDGE));
         peaks.sort_by(f64::total_cmp);
-        let (mut x, mut y) = (vec![0.0], vec![0.0]);
-        for (i, peak) in peaks.iter().enumerate() {
-            let peak = peak.min(EDGE);
-            x.extend([peak, peak]);
-            y.extend([i as f64, i as f64 + 1.0].map(|below| below / peaks.len() as f64));
-        }
+        let (x, y) = stairs(&peaks);
         panel.curve(&mut canvas, &x, &y, pen);
     }
     let panel = Panel {

@@ -2,10 +2,10 @@
 
 use super::canvas::Canvas;
 use super::legend::{self, LegendEntry};
-use super::mark::{self, Mark};
+use super::mark::Mark;
 use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
-use super::style::{self, LABEL, Pen, WIDTH};
+use super::style::{LABEL, Pen, WIDTH};
 use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("precision");
@@ -64,7 +64,7 @@ fn panel(canvas: &mut Canvas, data: &PrecisionFigure<'_>, y: f64) {
         .series
         .iter()
         .enumerate()
-        .map(|(i, series)| LegendEntry::both(series.label, pen(i), dot(i)))
+        .map(|(i, series)| LegendEntry::both(series.label, Pen::series(i, 3.0), Mark::series(i)))
         .collect();
     let left = 150.0;
     let top = y + legend::title(canvas, data.title, (left, WIDTH as f64 - 40.0), y);
@@ -84,17 +84,9 @@ fn panel(canvas: &mut Canvas, data: &PrecisionFigure<'_>, y: f64) {
     panel.axes(canvas, Some(data.error_label), data.time_label, 110.0);
     for (i, series) in data.series.iter().enumerate().rev() {
         let (errors, times): (Vec<f64>, Vec<f64>) = series.points.iter().copied().unzip();
-        panel.curve(canvas, &errors, &times, pen(i));
+        panel.curve(canvas, &errors, &times, Pen::series(i, 3.0));
         for &(error, time) in series.points {
-            dot(i).draw(canvas, panel.at(error, time));
+            Mark::series(i).draw(canvas, panel.at(error, time));
         }
     }
-}
-
-fn pen(i: usize) -> Pen {
-    Pen::new(style::series(i), 3.0)
-}
-
-fn dot(i: usize) -> Mark {
-    Mark::new(mark::series(i), 9.0, style::series(i))
 }

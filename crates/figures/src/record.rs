@@ -32,9 +32,7 @@ pub struct RecordFigure<'a> {
 /// # Errors
 /// [`FigureError`] for fewer than two times, a slice that is not finite or of another length.
 pub fn draw(data: &RecordFigure<'_>) -> Result<Sheet, FigureError> {
-    CHECK.least("t", data.t.len(), 2)?;
-    CHECK.finite("t", data.t)?;
-    let n = data.t.len();
+    let n = CHECK.times(data.t)?;
     CHECK.column("accel_g", data.accel_g, n)?;
     CHECK.column("velocity", data.velocity, n)?;
     CHECK.finite("uplift_g", data.uplift_g.as_slice())?;

@@ -45,8 +45,7 @@ pub struct StackFigure<'a> {
 /// # Errors
 /// [`FigureError`] for an empty or not finite slice, or one longer than the times.
 pub fn draw(data: &StackFigure<'_>) -> Result<Sheet, FigureError> {
-    CHECK.least("t", data.t.len(), 2)?;
-    CHECK.finite("t", data.t)?;
+    CHECK.times(data.t)?;
     for panel in data.panels {
         for (name, curve) in data.names.iter().zip(panel.curves) {
             let what = format!("{} of {name}", panel.name);
@@ -123,8 +122,8 @@ fn one(
 fn pen(i: usize) -> Pen {
     match i {
         0 => Pen::new(BLACK, 4.6),
-        1 => Pen::new(style::series(0), 2.4),
-        i => Pen::new(style::series(i - 1), 2.2),
+        1 => Pen::series(0, 2.4),
+        i => Pen::series(i - 1, 2.2),
     }
 }
 

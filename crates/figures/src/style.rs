@@ -52,6 +52,11 @@ impl Pen {
         Self { colour: colour.into(), width, dash: None }
     }
 
+    /// That of the i-th series.
+    pub(crate) fn series(i: usize, width: f64) -> Self {
+        Self::new(series(i), width)
+    }
+
     /// Its colour, without its opacity.
     pub(crate) fn rgb(self) -> RGBColor {
         RGBColor(self.colour.0, self.colour.1, self.colour.2)

@@ -8,7 +8,7 @@ use super::legend::{self, LegendEntry};
 use super::lettering::Lettering;
 use super::mark::{Mark, MarkShape};
 use super::number::short;
-use super::panel::{Panel, PanelFrame};
+use super::panel::{Panel, PanelFrame, stairs};
 use super::scale::Scale;
 use super::style::{BLACK, BLUE, GREY, NUMBER, Pen, SIDES, VERMILLION};
 use super::{Check, FigureError, Sheet};
@@ -124,11 +124,7 @@ fn distributions(canvas: &mut Canvas, data: &ValidationFigure<'_>, frame: PanelF
     rigid.sort_by(f64::total_cmp);
     fem.sort_by(f64::total_cmp);
     for (sorted, pen) in [(&rigid, Pen::new(BLACK, 5.0)), (&fem, Pen::new(VERMILLION, 2.6))] {
-        let (mut x, mut y) = (vec![0.0], vec![0.0]);
-        for (i, &peak) in sorted.iter().enumerate() {
-            x.extend([peak, peak]);
-            y.extend([i as f64, i as f64 + 1.0].map(|below| below / sorted.len() as f64));
-        }
+        let (mut x, mut y) = stairs(sorted);
         x.push(panel.x.high);
         y.push(1.0);
         panel.curve(canvas, &x, &y, pen);
