@@ -3,7 +3,7 @@
 use dynamics::fem::Control;
 use rocking::{motion::nrmse, structure::Structure};
 
-use crate::common::{chains, el_centro, lively, paper, plastic, settled};
+use crate::common::{chains, el_centro, lively, paper, plastic, settled, settled_with};
 
 #[test]
 fn halving_the_tolerance_changes_el_centro_by_less_than_a_thousandth() {
@@ -12,8 +12,8 @@ fn halving_the_tolerance_changes_el_centro_by_less_than_a_thousandth() {
         let control = Control::default();
         let half = Control { tolerance: 0.5 * control.tolerance, ..control };
         let (whole, half) = (
-            settled(&structure, springs, &record, control),
-            settled(&structure, springs, &record, half),
+            settled_with(&structure, springs, &record, control),
+            settled_with(&structure, springs, &record, half),
         );
         let change = nrmse(&half.motion.u, &whole.motion.u);
         assert!(change < 1e-3, "{change}");
@@ -25,8 +25,9 @@ fn the_default_tolerance_is_within_five_ten_thousandths_of_a_converged_history()
     let (structure, record) = (paper(0.0), el_centro());
     let springs = plastic(160.0, structure.mass_kg);
     let tight = Control { tolerance: 1e-13, ..Control::default() };
-    let whole = settled(&structure, springs, &record, Control::default());
-    let change = nrmse(&whole.motion.u, &settled(&structure, springs, &record, tight).motion.u);
+    let whole = settled(&structure, springs, &record);
+    let change =
+        nrmse(&whole.motion.u, &settled_with(&structure, springs, &record, tight).motion.u);
     assert!(change < 5e-4, "{change}");
 }
 
@@ -36,7 +37,7 @@ fn halving_a_small_rotational_inertia_changes_nothing_that_matters() {
     for (share, half) in [(1e-4, 5e-5), (1e-3, 5e-4)] {
         let [whole, half] = [share, half].map(|share| {
             let structure = paper(share);
-            settled(&structure, plastic(160.0, structure.mass_kg), &record, Control::default())
+            settled(&structure, plastic(160.0, structure.mass_kg), &record)
         });
         let change = nrmse(&half.motion.u, &whole.motion.u);
         assert!(change < 2e-3, "{share}: {change}");
@@ -61,7 +62,7 @@ fn the_tolerance_controls_the_error_of_the_history() {
     for (structure, springs, last) in cases {
         let at = |tolerance: f64| {
             let control = Control { tolerance, ..Control::default() };
-            settled(&structure, springs, &record, control).motion.u
+            settled_with(&structure, springs, &record, control).motion.u
         };
         let tight = at(1e-12);
         let errors = [1e-5, 1e-7, 1e-9].map(|tolerance| nrmse(&at(tolerance), &tight));

@@ -53,7 +53,12 @@ pub fn el_centro() -> Record {
 }
 
 /// A history from rest.
-pub fn settled(
+pub fn settled(structure: &Structure, springs: Springs<Chain>, record: &Record) -> History {
+    settled_with(structure, springs, record, Control::default())
+}
+
+/// The same, its steps so controlled.
+pub fn settled_with(
     structure: &Structure,
     springs: Springs<Chain>,
     record: &Record,

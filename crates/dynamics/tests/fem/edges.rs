@@ -2,9 +2,9 @@
 //! where contact only just changes, closed forms, and Housner's body where stiff springs must give
 //! it.
 
-use dynamics::fem::{Analysis, Control, History, HistoryOutcome, Start};
+use dynamics::fem::{Analysis, History, HistoryOutcome, Start};
 use rocking::{housner, motion::nrmse, scalar::GRAVITY, structure::Structure};
-use strong_motion::{Record, Source};
+use strong_motion::Record;
 
 use crate::common::{assert_sound, free, paper, plastic, settled, table_1};
 
@@ -18,15 +18,8 @@ const LIMIT: f64 = 0.25 * GRAVITY;
 
 /// The block from rest on plastic springs.
 fn shaken(hz: f64, dt: f64, accel: &[f64]) -> History {
-    let record = Record {
-        name: "made up".into(),
-        dt,
-        accel: accel.to_vec(),
-        vertical: None,
-        source: Source::Numbers,
-        made_of: None,
-    };
-    settled(&block(), plastic(hz, block().mass_kg), &record, Control::default())
+    let record = Record::new("made up", dt, accel.to_vec()).unwrap();
+    settled(&block(), plastic(hz, block().mass_kg), &record)
 }
 
 /// Two neighbouring numbers, the one that `passes` and the one that does not.

@@ -1,6 +1,5 @@
 //! The energy account closes in every run, and nothing creates energy.
 
-use dynamics::fem::Control;
 use rocking::structure::Structure;
 use rocking::synthetic;
 
@@ -18,7 +17,7 @@ fn the_account_closes_on_el_centro_for_springs_soft_and_stiff() {
                 ("lively", lively(hz, m)),
                 ("table 1", table_1(hz, m)),
             ] {
-                let history = settled(&structure, springs, &record, Control::default());
+                let history = settled(&structure, springs, &record);
                 assert_closes(&history, &format!("{name} {hz} Hz, I_cg {share} m R^2"));
                 // undamped rotation of a kHz: a long history keeps the same bound
                 let long = (share, hz, name) == (1e-2, 40.0, "table 1");
@@ -50,7 +49,7 @@ fn the_account_closes_for_blocks_and_frames_on_pulses_and_noise() {
         let stiff = 160.0 * (63.0 / body.radius()).sqrt();
         for record in synthetic::suite(12, 7, body.p(), body.alpha()) {
             for springs in [plastic(stiff, body.mass), lively(stiff, body.mass)] {
-                let history = settled(&structure, springs, &record, Control::default());
+                let history = settled(&structure, springs, &record);
                 assert_closes(&history, &record.name);
             }
         }

@@ -4,7 +4,7 @@
 use std::{f64::consts::FRAC_PI_4, ops::ControlFlow};
 
 use dynamics::{
-    fem::{Analysis, Control, Finish, HistoryOutcome, Start, View},
+    fem::{Analysis, Finish, HistoryOutcome, Start, View},
     spring::{Chain, Design, Springs},
 };
 use rocking::{
@@ -69,15 +69,14 @@ fn equal_vertical_and_horizontal_springs_are_no_special_case() {
     let ratios = (0.3, 0.1, 0.75);
     let springs = chains(ratios, ratios, 320.0, structure.mass_kg);
     assert_eq!(springs.vertical, springs.horizontal);
-    let history = settled(&structure, springs, &record, Control::default());
+    let history = settled(&structure, springs, &record);
     assert_sound(&history, record.accel.len());
     let body = structure.body::<f64>();
     let rigid = housner::history(&body, record.dt, &record.accel);
     let error = nrmse(&history.motion.u, &rigid.motion(&body).u);
     assert!(error < 0.05, "{error}");
     let nearly = Chain { k1: springs.horizontal.k1 * (1.0 + 1e-9), ..springs.horizontal };
-    let beside =
-        settled(&structure, Springs { horizontal: nearly, ..springs }, &record, Control::default());
+    let beside = settled(&structure, Springs { horizontal: nearly, ..springs }, &record);
     let change = nrmse(&beside.motion.u, &history.motion.u);
     assert!(change < 1e-5, "{change:e}");
 }

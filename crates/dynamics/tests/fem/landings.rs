@@ -1,7 +1,6 @@
 //! Landings of whole histories: as many impacts as Housner's, whatever the springs do in them.
 
 use dynamics::compare::Match;
-use dynamics::fem::Control;
 use rocking::{housner, structure::Structure};
 
 use crate::common::{chains, el_centro, free, lively, paper, plastic, settled, table_1};
@@ -16,7 +15,7 @@ fn stiff_springs_have_housner_s_twelve_impacts_on_el_centro() {
         let m = structure.mass_kg;
         for hz in [160.0, 320.0] {
             for springs in [plastic(hz, m), lively(hz, m)] {
-                let history = settled(&structure, springs, &record, Control::default());
+                let history = settled(&structure, springs, &record);
                 assert_eq!(history.impacts(), 12, "{hz} Hz, {share}");
             }
         }
@@ -54,7 +53,7 @@ fn every_firm_landing_of_a_block_shaken_hard_loses_what_housner_s_does() {
     let springs = chains((0.70265, 0.12858, 0.82828), (0.05404, 0.46478, 0.18445), 640.0, 100.0);
     let mut record = el_centro();
     record.accel.iter_mut().for_each(|a| *a *= 1.5);
-    let history = settled(&structure, springs, &record, Control::default());
+    let history = settled(&structure, springs, &record);
     let short: Vec<_> =
         history.landings.iter().filter(|l| l.impact && (4.67..4.70).contains(&l.time)).collect();
     assert_eq!(short.iter().map(|l| l.foot).collect::<Vec<_>>(), [0, 1], "{short:?}");
@@ -68,7 +67,7 @@ fn every_firm_landing_of_a_block_shaken_hard_loses_what_housner_s_does() {
     assert!(found.restitution_error_max > firm, "{found:?}");
     let weak: Vec<f64> = record.accel.iter().map(|a| 0.01 * a).collect();
     record.accel = weak;
-    let still = settled(&structure, springs, &record, Control::default());
+    let still = settled(&structure, springs, &record);
     assert_eq!(
         Match::new(&body, record.dt, housner, &still, body.restitution()).restitution_error_firm,
         None

@@ -1,7 +1,7 @@
 //! Dampers and a tendon through El Centro.
 
 use dynamics::{
-    fem::{Analysis, Control, Demands, History, Start, corner_forces},
+    fem::{Analysis, Demands, History, Start, corner_forces},
     spring::{Chain, Springs},
 };
 use rocking::{
@@ -38,7 +38,7 @@ fn kinds() -> Vec<Members> {
 fn without_members_the_history_is_the_rigid_body_s_to_the_last_bit() {
     let (structure, record) = (paper(1e-5), el_centro());
     let springs = plastic(80.0, structure.mass_kg);
-    let rigid = settled(&structure, springs, &record, Control::default());
+    let rigid = settled(&structure, springs, &record);
     let (history, demands) = run(&structure, springs, &record, &Members::default());
     assert_eq!(history.motion, rigid.motion);
     assert_eq!(demands.rows.len(), record.accel.len());

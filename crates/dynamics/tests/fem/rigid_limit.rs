@@ -1,6 +1,5 @@
 //! Springs that stiffen give Housner's history.
 
-use dynamics::fem::Control;
 use rocking::{housner, motion::nrmse};
 
 use crate::common::{el_centro, paper, plastic, settled};
@@ -13,8 +12,7 @@ fn stiff_springs_give_housner_s_history_of_el_centro() {
     let motion = rigid.motion(&body);
     let mut errors = Vec::new();
     for hz in [80.0, 320.0, 1280.0] {
-        let history =
-            settled(&structure, plastic(hz, structure.mass_kg), &record, Control::default());
+        let history = settled(&structure, plastic(hz, structure.mass_kg), &record);
         assert_eq!(history.impacts(), rigid.impacts.len(), "{hz} Hz");
         errors.push([nrmse(&history.motion.u, &motion.u), nrmse(&history.motion.v, &motion.v)]);
     }

@@ -7,7 +7,7 @@ use dynamics::{
 use rocking::{motion::largest_magnitude, structure::Structure};
 use strong_motion::{ReadOptions, Record};
 
-use crate::common::{el_centro, lively, paper, plastic, settled};
+use crate::common::{el_centro, lively, paper, plastic, settled, settled_with};
 
 type Make = fn(f64, f64) -> Springs<Chain>;
 
@@ -19,8 +19,8 @@ fn the_mirrored_record_gives_the_mirrored_history() {
         let structure = paper(share);
         for make in [plastic, lively] as [Make; 2] {
             let springs = make(80.0, structure.mass_kg);
-            let one = settled(&structure, springs, &record, Control::default());
-            let other = settled(&structure, springs, &mirrored, Control::default());
+            let one = settled(&structure, springs, &record);
+            let other = settled(&structure, springs, &mirrored);
             assert_eq!(one.impacts(), other.impacts());
             assert!(one.motion.u.iter().zip(&other.motion.u).all(|(a, b)| *a == -b));
             assert!(one.motion.v.iter().zip(&other.motion.v).all(|(a, b)| a == b));
@@ -81,7 +81,7 @@ fn a_record_file_in_g_or_centimetres_gives_the_same_history() {
     record.accel.truncate(600);
     let structure = paper(1e-5);
     let springs = plastic(80.0, structure.mass_kg);
-    let one = settled(&structure, springs, &record, Control::default());
+    let one = settled(&structure, springs, &record);
     for (header, unit) in [("UNITS OF G", 9.81), ("UNITS OF M/S/S", 1.0), ("UNITS OF CM/S/S", 0.01)]
     {
         let numbers: Vec<String> = record.accel.iter().map(|a| format!("{:e}", a / unit)).collect();
@@ -90,7 +90,7 @@ fn a_record_file_in_g_or_centimetres_gives_the_same_history() {
             numbers.join(" ")
         );
         let read = Record::parse("a.at2", text.as_bytes(), &ReadOptions::default()).unwrap();
-        assert_same(&one, &settled(&structure, springs, &read, Control::default()), 1.0);
+        assert_same(&one, &settled(&structure, springs, &read), 1.0);
     }
 }
 
@@ -107,10 +107,10 @@ fn quiet_before_a_record_only_shifts_the_history() {
         let structure = paper(share);
         for make in [plastic, lively] as [Make; 2] {
             let springs = make(80.0, structure.mass_kg);
-            let one = settled(&structure, springs, &record, Control::default());
+            let one = settled(&structure, springs, &record);
             for skip_rest in [true, false] {
                 let control = Control { skip_rest, ..Control::default() };
-                let mut other = settled(&structure, springs, &shifted, control);
+                let mut other = settled_with(&structure, springs, &shifted, control);
                 for x in [&mut other.motion.u, &mut other.motion.v] {
                     assert!(x.drain(..137).all(|x| x.abs() < 1e-12));
                 }

@@ -7,15 +7,21 @@ use crate::fem::{
 };
 use rocking::scalar::GRAVITY;
 
+/// A step that begins with no guess and converges to rounding.
+fn request(h: f64, ground: Ground) -> Request {
+    Request { h, ground, guess: [NO_GUESS; 3], tolerance: 1e-15, rate: 1.0, turning: None }
+}
+
 /// n steps of size h with frozen contact, without any control.
 fn march(model: &Model, start: State, feet: &[Foot; 2], h: f64, n: usize, slope: f64) -> State {
     let (mut state, mut stepper, mut stages) = (start, Stepper::new(model), Stages::none());
     for i in 0..n {
         let ground =
             Ground { start: [slope * h * i as f64, 0.0], slope: [slope, 0.0], curve: [0.0; 2] };
-        let request =
-            Request { h, ground, guess: [NO_GUESS; 3], tolerance: 1e-15, rate: 1.0, turning: None };
-        assert!(stepper.step(&state, feet, &request, &mut stages), "a linear step converges");
+        assert!(
+            stepper.step(&state, feet, &request(h, ground), &mut stages),
+            "a linear step converges"
+        );
         state = stages.end();
     }
     state
@@ -53,9 +59,7 @@ fn the_estimate_of_the_local_error_is_of_order_four_and_above_the_error() {
     let estimate = |h: f64| {
         let (mut stepper, mut stages) = (Stepper::new(&model), Stages::none());
         let ground = Ground { start: [0.0; 2], slope: [slope, 0.0], curve: [0.0; 2] };
-        let request =
-            Request { h, ground, guess: [NO_GUESS; 3], tolerance: 1e-15, rate: 1.0, turning: None };
-        assert!(stepper.step(&start, &feet, &request, &mut stages));
+        assert!(stepper.step(&start, &feet, &request(h, ground), &mut stages));
         let missed = stepper.local_error(&start, &feet, &ground, &stages);
         let fine = march(&model, start, &feet, h / 16.0, 16, slope);
         let off = |k: usize| {
@@ -122,10 +126,8 @@ fn the_velocity_within_a_step_is_a_cubic_through_its_start() {
     };
     for h in [0.32, 0.16] {
         let ground = Ground { start: [c0, 0.0], slope: [c1, 0.0], curve: [c2, 0.0] };
-        let request =
-            Request { h, ground, guess: [NO_GUESS; 3], tolerance: 1e-15, rate: 1.0, turning: None };
         let mut stages = Stages::none();
-        assert!(Stepper::new(&model).step(&start, &feet, &request, &mut stages));
+        assert!(Stepper::new(&model).step(&start, &feet, &request(h, ground), &mut stages));
         for i in 0..=32 {
             let tau = f64::from(i) / 32.0;
             let t = tau * h;
