@@ -12,6 +12,17 @@ frequency_hz = 2.0
 damping_ratio = 0.02
 "#;
 
+const A_FRAME: &str = r#"
+kind = "aframe"
+height_m = 61.0
+width_m = 12.2
+mass_kg = 680.1e3
+ea_n = 6.7e9
+ei_nm2 = 1e10
+foot_mass_kg = 5e3
+damping_ratio = 0.02
+"#;
+
 fn read(text: &str) -> Result<ElasticStructure, String> {
     let structure: ElasticStructure = toml::from_str(text).map_err(|e| e.to_string())?;
     structure.checked().map_err(|e| e.to_string())
@@ -22,6 +33,17 @@ fn pier() -> PierSpec {
         ElasticStructure::Pier(pier) => pier,
         other => panic!("{other:?}"),
     }
+}
+
+/// Under a beam of this EI (N m2).
+fn portal(beam_ei: f64) -> ElasticStructure {
+    let text = format!(
+        "kind = 'frame'\nheight_m = 9.0\nspan_m = 8.0\nfooting_width_m = 2.5\n\
+         footing_height_m = 1.0\nfooting_mass_kg = 30e3\nbeam_mass_kg = 400e3\n\
+         column_ea_n = 3e10\ncolumn_ei_nm2 = 2e9\nbeam_ea_n = 3e10\n\
+         beam_ei_nm2 = {beam_ei:e}\ndamping_ratio = 0.03"
+    );
+    read(&text).unwrap()
 }
 
 #[test]
@@ -58,15 +80,7 @@ fn the_rigid_body_of_a_pier_has_its_parts_inertia_about_a_corner() {
 /// Rigid beam: both columns clamped at both ends, 24 EI/L^3; no beam: two cantilevers, 6 EI/L^3.
 #[test]
 fn a_portal_lies_between_its_limits() {
-    let with = |beam_ei: f64| {
-        let text = format!(
-            "kind = 'frame'\nheight_m = 9.0\nspan_m = 8.0\nfooting_width_m = 2.5\n\
-             footing_height_m = 1.0\nfooting_mass_kg = 30e3\n\
-             beam_mass_kg = 400e3\ncolumn_ea_n = 3e10\ncolumn_ei_nm2 = 2e9\nbeam_ea_n = 3e10\n\
-             beam_ei_nm2 = {beam_ei:e}\ndamping_ratio = 0.03"
-        );
-        read(&text).unwrap().frequency_hz()
-    };
+    let with = |beam_ei: f64| portal(beam_ei).frequency_hz();
     let hz = |factor: f64| {
         let stiffness = factor * 2e9 / 512.0 - 2.0 * 200e3 * 9.81 / 8.0;
         (stiffness / 400e3).sqrt() / std::f64::consts::TAU
@@ -107,10 +121,7 @@ fn what_no_structure_can_be_is_refused_in_one_line() {
 
 #[test]
 fn legs_shorten_by_their_load_over_ea() {
-    let text = "kind = 'aframe'\nheight_m = 61.0\nwidth_m = 12.2\nmass_kg = 680.1e3\nea_n = 6.7e9\n\
-                ei_nm2 = 1e10\nfoot_mass_kg = 5e3\n\
-                damping_ratio = 0.02";
-    let structure = read(text).unwrap();
+    let structure = read(A_FRAME).unwrap();
     let load = 0.5 * 680.1e3 * 9.81 / 0.1_f64.atan().cos();
     assert_relative_eq!(structure.shortening(), load / 6.7e9, max_relative = 1e-12);
     let frame: ElasticStructure = toml::from_str(&toml::to_string(&structure).unwrap()).unwrap();
@@ -138,17 +149,10 @@ fn finite_elements_have_the_frequency_of_the_closed_form() {
     ] {
         assert_relative_eq!(lowest(&structure), structure.frequency_hz(), max_relative = within);
     }
-    let text = "kind = 'aframe'\nheight_m = 61.0\nwidth_m = 12.2\nmass_kg = 680.1e3\nea_n = 6.7e9\n\
-                ei_nm2 = 1e10\nfoot_mass_kg = 5e3\n\
-                damping_ratio = 0.02";
-    let frame = read(text).unwrap();
+    let frame = read(A_FRAME).unwrap();
     // the legs' bending is left out
     assert_relative_eq!(lowest(&frame), frame.frequency_hz(), max_relative = 1e-2);
-    let text = "kind = 'frame'\nheight_m = 9.0\nspan_m = 8.0\nfooting_width_m = 2.5\n\
-                footing_height_m = 1.0\nfooting_mass_kg = 30e3\n\
-                beam_mass_kg = 400e3\ncolumn_ea_n = 3e10\ncolumn_ei_nm2 = 2e9\nbeam_ea_n = 3e10\n\
-                beam_ei_nm2 = 4e9\ndamping_ratio = 0.03";
-    let portal = read(text).unwrap();
+    let portal = portal(4e9);
     // columns' shortening and the rotational inertia of the tops are left out
     assert_relative_eq!(lowest(&portal), portal.frequency_hz(), max_relative = 1.5e-2);
     assert_relative_eq!(lowest(&portal), portal.fixed_base_frequency_hz(), max_relative = 1e-12);
