@@ -91,6 +91,12 @@ pub fn power_of_ten(exponent: i32) -> String {
     format!("10{raised}")
 }
 
+/// x to so many significant digits.
+pub fn rounded(x: f64, digits: usize) -> f64 {
+    // a number that was printed can be read
+    format!("{:.*e}", digits.saturating_sub(1), x).parse().unwrap_or(x)
+}
+
 /// x with at most so many significant digits, without zeros at the end of a fraction: 401.2, 0.1,
 /// 1.725e16.
 pub fn significant(x: f64, digits: usize) -> String {
@@ -106,8 +112,8 @@ pub fn significant(x: f64, digits: usize) -> String {
     };
     if (-4..6).contains(&exponent) {
         // rounded to the digits first: 123456 to four is 123500
-        let rounded: f64 = scientific.parse().unwrap_or(x);
-        trim(&format!("{rounded:.*}", (digits as i32 - 1 - exponent).max(0) as usize))
+        let x = rounded(x, digits);
+        trim(&format!("{x:.*}", (digits as i32 - 1 - exponent).max(0) as usize))
     } else {
         format!("{}e{exponent}", trim(mantissa))
     }
@@ -128,9 +134,9 @@ pub fn quantity(x: f64, unit: &str) -> String {
         return format!("{} {unit}", significant(x, 4));
     }
     // rounding may carry: 999.97 N is 1 kN
-    let rounded: f64 = format!("{x:.3e}").parse().unwrap_or(x);
+    let size = rounded(x, 4).abs();
     let (factor, prefix) =
-        PREFIXES.into_iter().find(|(factor, _)| rounded.abs() >= *factor).unwrap_or((least, "n"));
+        PREFIXES.into_iter().find(|(factor, _)| size >= *factor).unwrap_or((least, "n"));
     format!("{} {prefix}{unit}", significant(x / factor, 4))
 }
 

@@ -7,6 +7,7 @@ use super::{
     parts::SweepParts,
     plan::{Cell, Plan},
 };
+use files::message::rounded;
 use rocking::statistics::ks_distance;
 use sweep_table::{Column, SweepTable};
 
@@ -117,11 +118,6 @@ fn bin(x: f64) -> i32 {
     (x.ln() / BIN).floor() as i32
 }
 
-/// The four digits that the middle of a bin has.
-fn four_digits(x: f64) -> f64 {
-    format!("{x:.3e}").parse().unwrap_or(x)
-}
-
 impl Histogram {
     pub(crate) fn add(&mut self, x: f64) {
         if x <= 0.0 {
@@ -159,7 +155,8 @@ impl Histogram {
         let above = if between == 0.0 { x } else { self.ranked(low as u64 + 1) };
         let found = if x == above { x } else { x + between * (above - x) };
         Some(match self.numbers {
-            Numbers::Binned(_) => four_digits(found),
+            // the middle of a bin has no more digits
+            Numbers::Binned(_) => rounded(found, 4),
             Numbers::Kept(_) => found,
         })
     }

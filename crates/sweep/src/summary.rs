@@ -9,6 +9,7 @@ use super::{
     reduce::MODELS,
 };
 use crate::lognormal::LognormalFit;
+use files::message::rounded;
 use rocking::{scalar::GRAVITY, structure::Kind};
 use sweep_table::SweepTable;
 
@@ -187,12 +188,6 @@ fn on_bounds(fragility: &Fragility) -> String {
     }
 }
 
-/// Three significant digits, as short as they come.
-fn three_digits(x: f64) -> String {
-    let rounded: f64 = format!("{x:.2e}").parse().unwrap_or(x);
-    rounded.to_string()
-}
-
 /// Rows of levels in all, and at least and at most of one structure.
 const LEVEL_ROWS: usize = 24;
 const ROWS_EACH: (usize, usize) = (3, 10);
@@ -238,13 +233,13 @@ fn at_levels(
         let millimetres = |x: f64| match 1e3 * x {
             0.0 => "0".into(),
             x if x < 0.1 => "< 0.1".into(),
-            x if x.is_finite() => three_digits(x),
+            x if x.is_finite() => rounded(x, 3).to_string(),
             _ => "overturned".into(),
         };
         let both = |a: f64, b: f64| format!("{} / {}", millimetres(a), millimetres(b));
         text += &format!(
             "\n  | {} | {:.1} % | {:.1} to {:.1} % | {:.0} % | {} | {} |",
-            three_digits(row.level),
+            rounded(row.level, 3),
             100.0 * row.overturned,
             100.0 * row.bounds.0,
             100.0 * row.bounds.1,

@@ -1,6 +1,7 @@
 //! What is said of a doubt: what it is, and what to do if it is right.
 
 use super::{Doubt, MOST_PGA_G};
+use files::message::rounded;
 
 impl Doubt {
     /// What is doubted, in one line.
@@ -146,10 +147,6 @@ impl Doubt {
 
 /// Four significant digits, and no more than it takes.
 fn figures(x: f64) -> String {
-    let rounded: f64 = format!("{x:.3e}").parse().unwrap_or(x);
-    if rounded == 0.0 || (1e-3..1e7).contains(&rounded.abs()) {
-        format!("{rounded}")
-    } else {
-        format!("{rounded:e}")
-    }
+    let x = rounded(x, 4);
+    if x == 0.0 || (1e-3..1e7).contains(&x.abs()) { format!("{x}") } else { format!("{x:e}") }
 }

@@ -10,6 +10,7 @@ use crate::{
     spec::{Grid, Kinds, SweepSource},
 };
 use cases::doubts::Doubt;
+use files::message::rounded;
 use rocking::{
     scalar::GRAVITY,
     structure::{self, Body, Structure},
@@ -41,7 +42,8 @@ impl Subject {
             structure::Kind::AFrame => "A-frame",
             structure::Kind::Block => "block",
         };
-        let name = format!("{kind} R {} m, alpha {}", digits(body.radius()), digits(body.alpha()));
+        let name =
+            format!("{kind} R {} m, alpha {}", rounded(body.radius(), 4), rounded(body.alpha(), 4));
         let (alpha, p) = (body.alpha(), body.p());
         Self { name, structure, body, restitution, alpha, p, doubts: Vec::new() }
     }
@@ -50,12 +52,6 @@ impl Subject {
     pub(crate) fn uplift(&self) -> f64 {
         GRAVITY * self.alpha.tan()
     }
-}
-
-/// Four significant digits at most, as short as they come.
-fn digits(x: f64) -> String {
-    let rounded: f64 = format!("{x:.3e}").parse().unwrap_or(x);
-    rounded.to_string()
 }
 
 /// All structures that the file asks for.
@@ -114,7 +110,7 @@ fn name_restitutions(subjects: &mut [Subject]) {
         return;
     }
     for subject in subjects {
-        subject.name += &format!(", e = {}", digits(subject.restitution));
+        subject.name += &format!(", e = {}", rounded(subject.restitution, 4));
         if of_equation_2(subject) {
             subject.name += " (equation 2)";
         }
