@@ -17,18 +17,25 @@ fn same(found: &[f64], expected: impl IntoIterator<Item = f64>) {
     }
 }
 
+fn is_of(recording: &Recording, format: RecordFormat, station: &str) {
+    assert_eq!((recording.format, recording.station.as_deref()), (format, Some(station)));
+}
+
+fn directions(recording: &Recording) -> Vec<Direction> {
+    recording.components.iter().map(|component| component.direction).collect()
+}
+
+const GEONET: [(&str, f64); 3] = [("N28W", 5000.0), ("S62W", 7000.0), ("Up", 9000.0)];
+const COSMOS: [(i64, f64); 3] = [(360, 3.0), (90, 2.0), (400, 4.0)];
+
 #[test]
 fn geonet_files_have_three_components() {
     for raw in [false, true] {
-        let text = write::geonet(&[("N28W", 5000.0), ("S62W", 7000.0), ("Up", 9000.0)], raw);
+        let text = write::geonet(&GEONET, raw);
         let recording = read("x.txt", &text);
+        is_of(&recording, RecordFormat::GeoNet, "TEST Made up Farm");
         assert_eq!(
-            (recording.format, recording.station.as_deref()),
-            (RecordFormat::GeoNet, Some("TEST Made up Farm"))
-        );
-        let directions: Vec<_> = recording.components.iter().map(|c| c.direction).collect();
-        assert_eq!(
-            directions,
+            directions(&recording),
             [Direction::Azimuth(332.0), Direction::Azimuth(242.0), Direction::Vertical]
         );
         for (component, scale) in recording.components.iter().zip([5000.0, 7000.0, 9000.0]) {
@@ -57,7 +64,7 @@ fn geonet_files_have_three_components() {
 
 #[test]
 fn a_component_is_chosen_by_name_or_azimuth() {
-    let text = write::geonet(&[("N28W", 5000.0), ("S62W", 7000.0), ("Up", 9000.0)], false);
+    let text = write::geonet(&GEONET, false);
     let choose = |wanted: &str| {
         let options = ReadOptions { component: Some(wanted.into()), ..ReadOptions::default() };
         Recording::parse("x.V2A", text.as_bytes(), &options)
@@ -88,14 +95,10 @@ fn a_component_is_chosen_by_name_or_azimuth() {
 #[test]
 fn cosmos_channels_have_the_step_of_the_data_not_of_the_raw_record() {
     for (unit, factor) in [(("cm/sec2", 4), 0.01), (("g", 2), 9.81), (("gal", 10), 0.01)] {
-        let recording = read("x", &write::cosmos(&[(360, 3.0), (90, 2.0), (400, 4.0)], unit));
+        let recording = read("x", &write::cosmos(&COSMOS, unit));
+        is_of(&recording, RecordFormat::Cosmos, "XX-TEST Test Place");
         assert_eq!(
-            (recording.format, recording.station.as_deref()),
-            (RecordFormat::Cosmos, Some("XX-TEST Test Place"))
-        );
-        let directions: Vec<_> = recording.components.iter().map(|c| c.direction).collect();
-        assert_eq!(
-            directions,
+            directions(&recording),
             [Direction::Azimuth(0.0), Direction::Azimuth(90.0), Direction::Vertical]
         );
         for (component, scale) in recording.components.iter().zip([3.0, 2.0, 4.0]) {
@@ -122,10 +125,7 @@ fn csmip_channels_are_read_by_their_announced_formats() {
     let text = write::csmip(&[("90 Deg", 60.0), ("360 Deg", 80.0), (" Up", 70.0)]);
     for text in [text.replace("\r\n", "\n"), text.clone()] {
         let recording = read("x", &text);
-        assert_eq!(
-            (recording.format, recording.station.as_deref()),
-            (RecordFormat::Csmip, Some("12345 Test Place"))
-        );
+        is_of(&recording, RecordFormat::Csmip, "12345 Test Place");
         let labels: Vec<String> = recording.components.iter().map(|c| c.label()).collect();
         assert_eq!(labels, ["Chan 1 (azimuth 90)", "Chan 2 (azimuth 0)", "Chan 3 (vertical)"]);
         for (component, scale) in recording.components.iter().zip([60.0, 80.0, 70.0]) {
@@ -148,10 +148,7 @@ fn knet_counts_are_scaled_and_lose_their_mean() {
         ("3", "UD1", Direction::Vertical),
     ] {
         let recording = read("TST001.EW", &write::knet(dir));
-        assert_eq!(
-            (recording.format, recording.station.as_deref()),
-            (RecordFormat::KNet, Some("TST001"))
-        );
+        is_of(&recording, RecordFormat::KNet, "TST001");
         let component = recording.component();
         assert_eq!((component.name.as_deref(), component.direction), (Some(name), direction));
         assert_eq!(component.record.dt, 0.01);
@@ -171,10 +168,7 @@ fn knet_counts_are_scaled_and_lose_their_mean() {
 fn esm_files_have_one_value_a_line() {
     for (stream, direction) in [("HNE", Direction::Azimuth(90.0)), ("HNZ", Direction::Vertical)] {
         let recording = read("x.asc", &write::dyna(stream, -30.0));
-        assert_eq!(
-            (recording.format, recording.station.as_deref()),
-            (RecordFormat::Dyna, Some("XX TST Test Place"))
-        );
+        is_of(&recording, RecordFormat::Dyna, "XX TST Test Place");
         let component = recording.component();
         assert_eq!((component.name.as_deref(), component.direction), (Some(stream), direction));
         assert_eq!((component.record.dt, component.record.len()), (DT, SAMPLES));
@@ -208,8 +202,8 @@ fn options_must_agree_with_the_file() {
 #[test]
 fn a_file_says_the_same_however_its_lines_end() {
     let files = [
-        write::geonet(&[("N28W", 5000.0), ("S62W", 7000.0), ("Up", 9000.0)], true),
-        write::cosmos(&[(360, 3.0), (90, 2.0), (400, 4.0)], ("cm/sec2", 4)),
+        write::geonet(&GEONET, true),
+        write::cosmos(&COSMOS, ("cm/sec2", 4)),
         write::csmip(&[("90 Deg", 10.0), ("360 Deg", 5.0)]),
         write::knet("N-S"),
         write::dyna("HNE", 30.0),
