@@ -10,7 +10,7 @@ mod warnings;
 
 use super::{Run, STEADY, Section, Table, Unit, peak_table};
 use files::message::{shortened, significant};
-use lines::{at_most, parts_at_most, wrap};
+use lines::{at_most, parts_at_most, wrapped};
 use peaks::of_screen;
 use warnings::{Warned, is_doubt, tell, warnings};
 
@@ -210,11 +210,8 @@ fn answer(run: &Run, written: &Written, crowding: Crowding) -> Vec<String> {
     if let Some(accuracy) = &run.accuracy {
         let parts = accuracy.short(crowding.measured, run.unjudged());
         // as many parts as there is room for
-        let told = (1..=parts.len()).rev().map(|shown| {
-            let mut some = Vec::new();
-            wrap(&mut some, "accuracy  ", &parts[..shown].join("; "));
-            some
-        });
+        let told =
+            (1..=parts.len()).rev().map(|shown| wrapped("accuracy  ", &parts[..shown].join("; ")));
         let fits = |some: &Vec<String>| some.len() <= crowding.accuracy;
         match told.into_iter().find(fits) {
             Some(some) => lines.extend(some),
@@ -237,7 +234,7 @@ fn taken(run: &Run, written: &Written, crowding: Crowding, lines: &mut Vec<Strin
     let lifts = fact("lifts")
         .map_or(String::new(), |value| format!("; lifts {at} {value}{vertical}{first}"));
     // what lifts it is an answer: it is not cut
-    wrap(lines, "", &format!("{}{lifts}", run.taken.structure));
+    lines.extend(wrapped("", &format!("{}{lifts}", run.taken.structure)));
     if let Some(record) = &run.taken.short_record {
         let name = if record.chars().count() > WIDTH { "record " } else { "" };
         at_most(two, lines, "", record.strip_prefix(name).unwrap_or(record));
@@ -248,26 +245,17 @@ fn taken(run: &Run, written: &Written, crowding: Crowding, lines: &mut Vec<Strin
     let all: Vec<String> =
         run.taken.assumed.iter().map(|a| format!("{} ({})", a.what, a.key)).collect();
     let place = if written.report { "report.html" } else { "--verbose" };
+    let told = |shown: usize| match all.len() - shown {
+        0 => all.join("; "),
+        n => format!("{}; and {n} more: {place}", all[..shown].join("; ")),
+    };
     // as many as the lines hold
-    for shown in (1..=all.len()).rev() {
-        let rest = match all.len() - shown {
-            0 => String::new(),
-            n => format!("; and {n} more: {place}"),
-        };
-        let mut some = Vec::new();
-        wrap(&mut some, "assumed: ", &(all[..shown].join("; ") + &rest));
-        if some.len() <= crowding.assumed {
-            lines.extend(some);
-            return;
-        }
-    }
-    // one that is longer than the lines
-    if let Some(first) = all.first() {
-        let rest = match all.len() - 1 {
-            0 => String::new(),
-            n => format!("; and {n} more: {place}"),
-        };
-        at_most(two, lines, "assumed: ", &(first.clone() + &rest));
+    let some = (1..=all.len()).rev().map(|shown| wrapped("assumed: ", &told(shown)));
+    match some.into_iter().find(|some| some.len() <= crowding.assumed) {
+        Some(some) => lines.extend(some),
+        // one that is longer than the lines
+        None if !all.is_empty() => at_most(two, lines, "assumed: ", &told(1)),
+        None => {}
     }
 }
 
@@ -320,23 +308,19 @@ fn next(run: &Run, written: &Written, crowding: Crowding, lines: &mut Vec<String
         let check = format!("tune verify --parameters {}", written.file("parameters.json"));
         // on one line, if both fit
         if run.chars().count() + check.chars().count() + 2 < WIDTH - 10 {
-            wrap(lines, "OpenSees  ", &format!("{run}; {check}"));
+            lines.extend(wrapped("OpenSees  ", &format!("{run}; {check}")));
         } else {
             if both {
-                wrap(lines, "OpenSees  ", &run);
+                lines.extend(wrapped("OpenSees  ", &run));
             }
-            wrap(lines, if both { "check it  " } else { "OpenSees  " }, &check);
+            lines.extend(wrapped(if both { "check it  " } else { "OpenSees  " }, &check));
         }
     }
     match &run.program {
         Some(program) => {
             let name = format!("{:10}", program.short());
             // the words that fit; the fewest are not cut
-            let mut told = program.lines().map(|text| {
-                let mut some = Vec::new();
-                wrap(&mut some, &name, &text);
-                some
-            });
+            let mut told = program.lines().map(|text| wrapped(&name, &text));
             let fits = told.iter().position(|some| some.len() <= crowding.program);
             lines.append(&mut told[fits.unwrap_or(told.len() - 1)]);
             let settings = program.settings(crowding.settings >= ALL_SETTINGS);
@@ -347,9 +331,9 @@ fn next(run: &Run, written: &Written, crowding: Crowding, lines: &mut Vec<String
             }
             if written.decks && program.deck_of_even_steps {
                 let deck = format!("python3 {}", written.file(&format!("decks/{EVEN_DECK}")));
-                wrap(lines, "its deck  ", &deck);
+                lines.extend(wrapped("its deck  ", &deck));
             }
         }
-        None => wrap(lines, "SAP2000   ", no_program(run)),
+        None => lines.extend(wrapped("SAP2000   ", no_program(run))),
     }
 }

@@ -1,6 +1,6 @@
 //! Design forces on the screen: two to a line, the largest moment first.
 
-use super::{WIDTH, lines::wrap};
+use super::{WIDTH, lines::wrapped};
 use crate::{
     FiledParameters, Run,
     markdown::{held_words, range_words},
@@ -46,13 +46,12 @@ pub(super) fn lines(run: &Run, tight: bool) -> Vec<String> {
     let notes: Vec<String> =
         changes(run, forces).into_iter().chain(alone).chain(doubt).chain(rest).collect();
     let notes = if notes.is_empty() { String::new() } else { format!(" ({})", notes.join("; ")) };
-    let mut lines = Vec::new();
     let head = format!("design forces{}{notes}", which(run, forces));
     // what goes first where it is too long
     let head = [GROUND, ", landings included"].into_iter().fold(head, |head, part| {
         if head.chars().count() > WIDTH { head.replace(part, "") } else { head }
     });
-    wrap(&mut lines, "", &head);
+    let mut lines = wrapped("", &head);
     // the report has the vertical force, too
     let mut all: Vec<_> =
         forces.all().filter(|(name, _)| *name != ForceName::SoleVertical).collect();
@@ -95,7 +94,7 @@ pub(super) fn lines(run: &Run, tight: bool) -> Vec<String> {
             format!("{}{range}", short(run, *name, force))
         };
         let all: Vec<String> = withheld.iter().map(range).collect();
-        wrap(&mut lines, "  withheld: ", &all.join("; "));
+        lines.extend(wrapped("  withheld: ", &all.join("; ")));
     }
     lines
 }

@@ -6,11 +6,10 @@ use files::message::shortened;
 /// Letters of the longest unit that is kept with its number.
 const LONGEST_UNIT: usize = 2;
 
-/// The same as [`wrap`], in so many lines: what does not fit is left out, by whole parts if the
+/// The same as [`wrapped`], in so many lines: what does not fit is left out, by whole parts if the
 /// last line keeps half of its letters.
 pub(super) fn at_most(most: usize, lines: &mut Vec<String>, name: &str, text: &str) {
-    let mut all = Vec::new();
-    wrap(&mut all, name, text);
+    let mut all = wrapped(name, text);
     if all.len() > most {
         all.truncate(most);
         if let Some(last) = all.last_mut() {
@@ -40,9 +39,7 @@ pub(super) fn parts_at_most(
     let told = |shown: usize| {
         let rest = (shown < parts.len()).then(|| rest.to_string());
         let told: Vec<String> = parts[..shown].iter().cloned().chain(rest).collect();
-        let mut some = Vec::new();
-        wrap(&mut some, name, &told.join("; "));
-        some
+        wrapped(name, &told.join("; "))
     };
     let fits = (1..=parts.len()).rev().map(told).find(|some| some.len() <= most);
     lines.extend(fits.unwrap_or_else(|| told(1)));
@@ -50,7 +47,8 @@ pub(super) fn parts_at_most(
 
 /// Text behind a name, its further lines below the text; words that do not fit a line are shortened
 /// in the middle. A number keeps its unit.
-pub(super) fn wrap(lines: &mut Vec<String>, name: &str, text: &str) {
+pub(super) fn wrapped(name: &str, text: &str) -> Vec<String> {
+    let mut lines = Vec::new();
     let indent = name.chars().count();
     let mut line = name.to_string();
     let mut empty = true;
@@ -68,6 +66,7 @@ pub(super) fn wrap(lines: &mut Vec<String>, name: &str, text: &str) {
         empty = false;
     }
     lines.push(line);
+    lines
 }
 
 /// Words; a number and its unit are one.
@@ -100,8 +99,7 @@ mod tests {
     fn a_number_keeps_its_unit() {
         let words = with_units("moment 20.35 MN m at 5.2 s; 3.1 % of 24 motions");
         assert_eq!(words, ["moment", "20.35 MN m", "at", "5.2 s;", "3.1 %", "of", "24", "motions"]);
-        let mut lines = Vec::new();
-        wrap(&mut lines, "name  ", &format!("{} 1.946 s", "x".repeat(WIDTH - 12)));
+        let mut lines = wrapped("name  ", &format!("{} 1.946 s", "x".repeat(WIDTH - 12)));
         assert_eq!(lines[1], "      1.946 s");
         at_most(1, &mut lines, "", &"words ".repeat(30));
         assert!(lines[2].ends_with("words ...") && lines[2].chars().count() <= WIDTH);

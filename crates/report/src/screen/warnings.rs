@@ -1,6 +1,6 @@
 //! Warnings at the end of the screen, in the room that is left.
 
-use super::{LINES, lines::wrap};
+use super::{LINES, lines::wrapped};
 use crate::{Run, sentence};
 use results::{FiledFinding, Finding, Weight};
 
@@ -55,9 +55,7 @@ impl Warned {
 
     /// Its lines.
     pub(super) fn lines(&self) -> Vec<String> {
-        let mut all = Vec::new();
-        wrap(&mut all, self.name, &self.text);
-        all
+        wrapped(self.name, &self.text)
     }
 }
 
