@@ -39,7 +39,7 @@ pub struct ElasticAssessment {
 }
 
 /// The reference and the finite elements on the record.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct OnRecord {
     /// Length that could be compared (s).
     pub compared_s: f64,
@@ -292,12 +292,7 @@ mod tests {
         let measured = Measured { motions: Some(errors), ..Measured::default() };
         let on_record = OnRecord {
             compared_s: 5.0,
-            whole: false,
-            foretold_s: None,
             slides_on_s: Some(5.0),
-            softer_omega_n_hz: None,
-            nrmse_rotation: None,
-            nrmse_drift: None,
             peak_ratio_reference: 0.5,
             peak_ratio_fem: 2.0,
             peak_drift_reference_m: 0.1,
@@ -306,7 +301,7 @@ mod tests {
             landings_reference: 4,
             touches_fem: 9,
             energy_residual: 1e-7,
-            near: None,
+            ..OnRecord::default()
         };
         let assessment = ElasticAssessment {
             judged_by: Yardstick::Histories,

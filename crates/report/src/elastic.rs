@@ -75,15 +75,6 @@ pub fn title(structure: &ElasticStructure) -> String {
     }
 }
 
-/// Height of the highest point (m).
-pub fn top_height(structure: &ElasticStructure) -> f64 {
-    match structure {
-        ElasticStructure::Pier(pier) => pier.height_m,
-        ElasticStructure::AFrame(frame) => frame.height_m,
-        ElasticStructure::Frame(frame) => frame.height_m,
-    }
-}
-
 impl ElasticParts<'_> {
     /// Friction coefficient that a footing on rigid ground needs, and when (s); how much of what it
     /// bears at rest presses it then. The footing that needs most: thrusts of two cancel.
@@ -364,21 +355,9 @@ mod tests {
     fn a_motion_is_foretold_for_as_long_as_its_deck_is_judged() {
         let on = OnRecord {
             compared_s: 12.2,
-            whole: false,
             foretold_s: Some(12.2),
             slides_on_s: Some(12.2),
-            softer_omega_n_hz: None,
-            nrmse_rotation: None,
-            nrmse_drift: None,
-            peak_ratio_reference: 0.5,
-            peak_ratio_fem: 0.5,
-            peak_drift_reference_m: 0.1,
-            peak_drift_fem_m: 0.1,
-            lifts_s: None,
-            landings_reference: 4,
-            touches_fem: 9,
-            energy_residual: 1e-7,
-            near: None,
+            ..OnRecord::default()
         };
         let judged = |end| Finding::DeckJudged { judged_s: 4.42, record_s: 40.0, end };
         let shear = DesignForce { holds: true, time_s: 6.0, ..DesignForce::default() };

@@ -122,7 +122,7 @@ fn cut_at_largest(peaks: &Peaks, whole: &Record, taken: &Record) -> Option<Findi
 }
 
 /// The case as it was understood.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Taken {
     /// The structure in a few words.
     pub structure: String,
@@ -143,14 +143,7 @@ pub struct Taken {
 impl Taken {
     /// A structure without a record.
     pub fn new(structure: String, facts: Vec<(String, String)>) -> Self {
-        Self {
-            structure,
-            facts,
-            record: None,
-            short_record: None,
-            vertical: false,
-            assumed: Vec::new(),
-        }
+        Self { structure, facts, ..Self::default() }
     }
 }
 

@@ -82,7 +82,7 @@ pub struct PeakTimes {
 
 /// The reference (Housner's body; an elastic structure on rigid ground) and the structure on its
 /// springs.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PeakPair {
     /// Without springs.
     pub reference: Peaks,
@@ -162,21 +162,17 @@ impl Peaks {
         let times = PeakTimes {
             top_displacement_s: moved.time,
             rocking_s: rocking.time,
-            bending_s: None,
-            feet_moved_s: None,
-            drift_ratio_s: None,
             uplift_s: lifted.time,
+            ..PeakTimes::default()
         };
         Self {
             top_displacement_m,
             rocking_m: rocking.value.abs(),
-            bending_m: None,
-            feet_moved_m: None,
-            then: None,
             uplift_m: 2.0 * body.half_width * lifted.value.abs(),
             drift_ratio: rocking.value.abs() / height,
             impacts,
             times: Some(times),
+            ..Self::default()
         }
     }
 }

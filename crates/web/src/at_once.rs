@@ -153,7 +153,6 @@ fn peaks(assembled: &Assembled, fem: &ElasticHistory) -> Peaks {
     let mut rocking = tops(assembled, fem.q.iter().map(Vec::as_slice))
         .zip(sways.iter().take(1).flat_map(|s| s.drift.iter().zip(&s.rotation)))
         .map(|(top, (drift, rotation))| top - drift * rotation.cos());
-    let height = report::elastic::top_height(&assembled.structure);
     // touches of corners within a tenth of 1/p are one impact, as in the whole run
     let rest = report::elastic::SAME_IMPACT / assembled.structure.body().p();
     let touches = fem.contacts.iter().filter(|contact| contact.touches).map(|contact| contact.time);
@@ -161,11 +160,9 @@ fn peaks(assembled: &Assembled, fem: &ElasticHistory) -> Peaks {
         top_displacement_m,
         rocking_m: largest(&mut rocking),
         bending_m: Some(bending),
-        feet_moved_m: None,
-        then: None,
         uplift_m,
-        drift_ratio: top_displacement_m / height,
+        drift_ratio: top_displacement_m / assembled.structure.height(),
         impacts: report::elastic::impacts(touches, rest),
-        times: None,
+        ..Peaks::default()
     }
 }

@@ -28,7 +28,7 @@ impl ElasticStructure {
     }
 
     /// Of the mass, or of the beam's axis, above the soles (m).
-    fn height(&self) -> f64 {
+    pub fn height(&self) -> f64 {
         match self {
             Self::Pier(pier) => pier.height_m,
             Self::AFrame(frame) => frame.height_m,

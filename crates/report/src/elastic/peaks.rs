@@ -1,6 +1,6 @@
 //! Largest displacements of an elastic structure, as an engineer quotes them.
 
-use super::{ElasticParts, top_height};
+use super::ElasticParts;
 use crate::predictable_to;
 use ::results::{FiledFinding, PartsOfTop, PeakPair, PeakTimes, Peaks};
 use frames::{answer::ElasticHistories, assembled::Sway, frame::Frame};
@@ -78,7 +78,7 @@ impl ElasticParts<'_> {
                 feet_moved_m: Some(moved.value.abs()),
                 then: Some(then),
                 uplift_m: lifted.value,
-                drift_ratio: distorted.value.abs() / top_height(&self.assembled.structure),
+                drift_ratio: distorted.value.abs() / self.assembled.structure.height(),
                 impacts,
                 times: Some(times),
             }
@@ -93,11 +93,8 @@ impl ElasticParts<'_> {
                 impacts(landings, rest),
             ),
             springs: of(&|i| fem.q[i].clone(), 1, impacts(touches, rest)),
-            reference_ends_s: None,
             springs_end_s: early,
-            with_members: None,
-            with_members_end_s: None,
-            foretold: None,
+            ..PeakPair::default()
         }
     }
 }
