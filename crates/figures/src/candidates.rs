@@ -30,7 +30,7 @@ pub struct CandidateMark {
 }
 
 /// What the figure shows.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct CandidatesFigure<'a> {
     /// First line: the head; further ones: remarks.
     pub title: &'a str,

@@ -17,7 +17,7 @@ const BEYOND: f64 = 2.0;
 const USUAL: f64 = 0.95;
 
 /// What the figure shows: forces on the body at the times t, one value each.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct ContactFigure<'a> {
     /// First line: the head; further ones: remarks.
     pub title: &'a str,

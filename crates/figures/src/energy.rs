@@ -15,7 +15,7 @@ use super::{Check, FigureError, Sheet};
 const CHECK: Check = Check("energy");
 
 /// What the figure shows, at the times t, one value each.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct EnergyFigure<'a> {
     /// First line: the head; further ones: remarks.
     pub title: &'a str,

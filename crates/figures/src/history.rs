@@ -66,7 +66,7 @@ impl<'a> Trace<'a> {
 }
 
 /// What the figure shows.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct HistoryFigure<'a> {
     /// First line: the head; further ones: remarks.
     pub title: &'a str,

@@ -20,7 +20,7 @@ pub struct ToolSeries<'a> {
 }
 
 /// What the figure shows.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct PrecisionFigure<'a> {
     /// First line: the head; further ones: remarks.
     pub title: &'a str,

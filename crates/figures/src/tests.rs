@@ -100,17 +100,10 @@ fn empty_or_unequal_or_not_finite_numbers_are_errors() {
         label: "Housner",
         u: &[0.0, 1.0, 0.5],
         v: &[0.0, 0.1, 0.0],
-        impacts: &[],
-        end: None,
-        answers: false,
+        ..history::Trace::default()
     };
-    let with = |t, reference| history::HistoryFigure {
-        title: "",
-        t,
-        reference,
-        others: &[],
-        differences: false,
-    };
+    let with =
+        |t, reference| history::HistoryFigure { t, reference, ..history::HistoryFigure::default() };
     let told = |data: &history::HistoryFigure<'_>| history::draw(data).unwrap_err().to_string();
     assert_eq!(
         told(&with(&t, history::Trace { u: &[0.0, f64::NAN, 0.5], ..good })),
@@ -127,46 +120,18 @@ fn empty_or_unequal_or_not_finite_numbers_are_errors() {
     );
     let empty: [Result<Sheet, FigureError>; 6] = [
         arr::draw(&arr::ResponseFigure { title: "", target: &[], curves: &[] }),
-        candidates::draw(&candidates::CandidatesFigure {
-            title: "",
-            error_label: "",
-            candidates: &[],
-            chosen: None,
-            chosen_label: "",
-        }),
+        candidates::draw(&candidates::CandidatesFigure::default()),
         front::draw(&front_of(&[])),
-        energy::draw(&energy::EnergyFigure {
-            title: "",
-            t: &[],
-            input: &[],
-            stored: &[],
-            dissipated: &[],
-            residual: &[],
-            end: None,
-        }),
-        validation::draw(&validation::ValidationFigure {
-            title: "",
-            rows: &[],
-            ks_distance: 0.0,
-            well_conditioned: 10.0,
-        }),
-        precision::draw(&[precision::PrecisionFigure {
-            title: "",
-            error_label: "",
-            time_label: "",
-            series: &[],
-        }]),
+        energy::draw(&energy::EnergyFigure::default()),
+        validation::draw(&validation::ValidationFigure::default()),
+        precision::draw(&[precision::PrecisionFigure::default()]),
     ];
     for result in empty {
         assert!(matches!(result, Err(FigureError::Empty { .. })));
     }
     let points = precision::ToolSeries { label: "tool", points: &[(1e-3, 0.0)] };
-    let data = precision::PrecisionFigure {
-        title: "",
-        error_label: "",
-        time_label: "",
-        series: &[points],
-    };
+    let data =
+        precision::PrecisionFigure { series: &[points], ..precision::PrecisionFigure::default() };
     assert!(matches!(precision::draw(&[data]), Err(FigureError::NotFinite { index: 1, .. })));
 }
 
@@ -174,41 +139,32 @@ fn empty_or_unequal_or_not_finite_numbers_are_errors() {
 #[test]
 fn the_least_data_still_makes_a_picture() {
     let (t, still) = ([0.0, 1.0], [0.0, 0.0]);
-    let trace = history::Trace {
-        label: "Housner",
-        u: &still,
-        v: &still,
-        impacts: &[],
-        end: None,
-        answers: false,
-    };
+    let trace =
+        history::Trace { label: "Housner", u: &still, v: &still, ..history::Trace::default() };
     let data = history::HistoryFigure {
-        title: "",
         t: &t,
         reference: trace,
         others: &[trace],
         differences: true,
+        ..history::HistoryFigure::default()
     };
     history::draw(&data).unwrap();
     let data = contact::ContactFigure {
-        title: "",
         t: &t,
         left_vertical: &still,
         right_vertical: &still,
         left_horizontal: &still,
         right_horizontal: &still,
-        weight: None,
-        end: None,
+        ..contact::ContactFigure::default()
     };
     contact::draw(&data).unwrap();
     let data = energy::EnergyFigure {
-        title: "",
         t: &t,
         input: &still,
         stored: &still,
         dissipated: &still,
         residual: &still,
-        end: None,
+        ..energy::EnergyFigure::default()
     };
     energy::draw(&data).unwrap();
     let one = candidates::CandidateMark {
@@ -218,11 +174,9 @@ fn the_least_data_still_makes_a_picture() {
         abandoned: false,
     };
     let data = candidates::CandidatesFigure {
-        title: "",
-        error_label: "",
         candidates: &[one],
         chosen: Some(0),
-        chosen_label: "",
+        ..candidates::CandidatesFigure::default()
     };
     candidates::draw(&data).unwrap();
     let row = validation::ValidationPoint {

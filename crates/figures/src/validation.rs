@@ -35,7 +35,7 @@ pub struct ValidationPoint {
 }
 
 /// What the figure shows.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct ValidationFigure<'a> {
     /// First line: the head; further ones: remarks.
     pub title: &'a str,

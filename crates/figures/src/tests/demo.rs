@@ -49,16 +49,13 @@ fn draw_history(three: bool) -> Result<Sheet, FigureError> {
             u: &u1,
             v: &v1,
             impacts: &z1,
-            end: None,
-            answers: false,
+            ..history::Trace::default()
         },
         history::Trace {
             label: "OpenSees",
             u: &u2[..1900],
             v: &v2[..1900],
-            impacts: &[],
-            end: None,
-            answers: false,
+            ..history::Trace::default()
         },
     ];
     let data = history::HistoryFigure {
@@ -69,8 +66,7 @@ fn draw_history(three: bool) -> Result<Sheet, FigureError> {
             u: &u,
             v: &v,
             impacts: &z,
-            end: None,
-            answers: false,
+            ..history::Trace::default()
         },
         others: if three { &others } else { &others[..1] },
         differences: three,
@@ -300,7 +296,6 @@ fn draw_record() -> Result<Sheet, FigureError> {
     })
 }
 
-/// Every figure: its name, and how to draw it.
 /// Two panels, whose names are longer than their axes.
 fn draw_overturning() -> Result<Sheet, FigureError> {
     let frequencies: Vec<f64> = (0..30).map(|i| 1.0 + 0.1 * f64::from(i)).collect();
@@ -326,6 +321,7 @@ fn draw_overturning() -> Result<Sheet, FigureError> {
     })
 }
 
+/// Every figure: its name, and how to draw it.
 pub const FIGURES: [(&str, Draw); 11] = [
     ("history", || draw_history(false)),
     ("arr", draw_arr),
