@@ -6,6 +6,15 @@ fn parse(file: &str, text: &str) -> Result<Record, RecordError> {
     Record::parse(file, text.as_bytes(), &ReadOptions::default())
 }
 
+fn notices_of(text: &str) -> Vec<Notice> {
+    Recording::parse("x.txt", text.as_bytes(), &ReadOptions::default()).unwrap().notices()
+}
+
+/// Bare values at steps of 0.01 s.
+fn in_steps(units: Units) -> ReadOptions {
+    ReadOptions { dt: Some(0.01), units: Some(units), ..ReadOptions::default() }
+}
+
 /// PEER's own figures for the record: dt 0.01 s, PGA 0.313 g; the file's first and last samples.
 #[test]
 fn el_centro_is_the_peer_record() {
@@ -172,13 +181,11 @@ fn every_damage_is_an_error_of_one_line_with_place_and_remedy() {
 /// Tables that are not records say so, and are never half read.
 #[test]
 fn misreadings_are_refused() {
-    let given = ReadOptions {
-        dt: Some(0.01),
-        units: Some(Units::CentimetrePerSecond2),
-        ..ReadOptions::default()
-    };
+    let given = in_steps(Units::CentimetrePerSecond2);
     let rows = |row: &dyn Fn(usize) -> String| (1..40).map(row).collect::<String>();
     let wave = |i: usize| (i as f64).sin();
+    let table = rows(&|i| format!("{:.2},{:.3}\n", 0.01 * i as f64, wave(i)));
+    let column = rows(&|i| format!("{:.3}\n", wave(i)));
     for (text, words) in [
         ("a,b,c\n1,2,3\n".to_owned(), "line 2: 3 columns"),
         (
@@ -198,37 +205,16 @@ fn misreadings_are_refused() {
             rows(&|i| format!("{:.4},{:.3}\n", 0.01 * 1.2_f64.powi(i as i32), 2.0 + wave(i))),
             "never changes its sign",
         ),
-        (
-            format!(
-                "Period (s),Sa (g)\n{}",
-                rows(&|i| format!("{:.2},{:.3}\n", 0.01 * i as f64, wave(i)))
-            ),
-            "a spectrum",
-        ),
-        (
-            format!("t,v [m/s]\n{}", rows(&|i| format!("{:.2},{:.3}\n", 0.01 * i as f64, wave(i)))),
-            "speaks of velocity",
-        ),
-        (
-            format!("t,d [cm]\n{}", rows(&|i| format!("{:.2},{:.3}\n", 0.01 * i as f64, wave(i)))),
-            "speaks of displacement",
-        ),
-        (
-            format!("# units: cm/s\n{}", rows(&|i| format!("{:.3}\n", wave(i)))),
-            "speaks of velocity",
-        ),
+        (format!("Period (s),Sa (g)\n{table}"), "a spectrum"),
+        (format!("t,v [m/s]\n{table}"), "speaks of velocity"),
+        (format!("t,d [cm]\n{table}"), "speaks of displacement"),
+        (format!("# units: cm/s\n{column}"), "speaks of velocity"),
         (
             rows(&|i| format!("{} {} {}\n", 8000 + i % 7, 8000 + i % 5, 8000 - i % 3)),
             "counts of a digitiser",
         ),
-        (
-            format!("# unit: counts\n{}", rows(&|i| format!("{:.3}\n", wave(i)))),
-            "counts of a digitiser",
-        ),
-        (
-            format!("# unit: m/s2\n{}", rows(&|i| format!("{:.3}\n", wave(i)))),
-            "the file says its unit is m/s2",
-        ),
+        (format!("# unit: counts\n{column}"), "counts of a digitiser"),
+        (format!("# unit: m/s2\n{column}"), "the file says its unit is m/s2"),
     ] {
         let message = Record::parse("x.csv", text.as_bytes(), &given).expect_err(&text).to_string();
         assert!(message.contains(words), "{}: {message}", &text[..30]);
@@ -242,11 +228,7 @@ fn misreadings_are_refused() {
 
 #[test]
 fn bare_values_in_several_columns_are_read_row_by_row() {
-    let given = ReadOptions {
-        dt: Some(0.01),
-        units: Some(Units::MetrePerSecond2),
-        ..ReadOptions::default()
-    };
+    let given = in_steps(Units::MetrePerSecond2);
     let expected = [0.1, -0.2, 0.3, 0.4, -0.5, 0.6, -0.7, 0.8];
     for text in
         ["title\n0.1 -0.2 0.3\n0.4 -0.5 0.6\n-0.7 0.8\n", "0.1,-0.2,0.3,0.4\n-0.5,0.6,-0.7,0.8\n"]
@@ -282,7 +264,7 @@ fn an_offset_is_said_and_removed_when_asked() {
 fn peaks_that_earthquakes_do_not_have_are_said() {
     let notices = |accel: f64| {
         let text = format!("# dt = 0.01 s, acceleration in m/s2\n{accel}\n{}\n", -accel);
-        Recording::parse("x.txt", text.as_bytes(), &ReadOptions::default()).unwrap().notices()
+        notices_of(&text)
     };
     assert!(matches!(notices(60.0)[..], [Notice::Strong { .. }]));
     assert!(matches!(notices(5e-4)[..], [Notice::Weak { .. }]));
@@ -329,7 +311,7 @@ fn time_steps_and_velocities_that_records_do_not_have_are_said() {
         let line = |i: usize| if i < halves { "2.0\n" } else { "-2.0\n" };
         let text = (0..2 * halves).map(line).collect::<String>();
         let text = format!("# dt = {dt} s, acceleration in m/s2\n{text}");
-        Recording::parse("x.txt", text.as_bytes(), &ReadOptions::default()).unwrap().notices()
+        notices_of(&text)
     };
     assert!(matches!(notices(0.05, 4)[..], [Notice::Coarse { dt: 0.05, .. }]));
     assert_eq!(notices(0.04, 4), []);
