@@ -34,16 +34,16 @@ pub fn structure() -> Structure {
 }
 
 impl BenchCase {
+    fn on_el_centro(name: &'static str, vertical: Design<f64>, horizontal: Design<f64>) -> Self {
+        Self { name, springs: Springs { vertical, horizontal }, record: el_centro() }
+    }
+
     /// 160 Hz springs as the paper's procedure tunes them.
     pub fn arr() -> Self {
         let vertical = Design { mu: 1.0, f: 0.862_809_649, xi: 1.023_922_665, omega_n_hz: 160.0 };
         let horizontal =
             Design { mu: 10.0, f: 0.948_312_333, xi: 0.197_421_228, omega_n_hz: 160.0 };
-        Self {
-            name: "paper's procedure",
-            springs: Springs { vertical, horizontal },
-            record: el_centro(),
-        }
+        Self::on_el_centro("paper's procedure", vertical, horizontal)
     }
 
     /// 160 Hz springs, fixed so that times can be compared: stiff, strongly damped horizontal
@@ -51,18 +51,13 @@ impl BenchCase {
     pub fn damped() -> Self {
         let vertical = Design { mu: 0.5158, f: 0.6521, xi: 0.8992, omega_n_hz: 160.0 };
         let horizontal = Design { mu: 0.0272, f: 33.19, xi: 40.06, omega_n_hz: 160.0 };
-        Self {
-            name: "strongly damped",
-            springs: Springs { vertical, horizontal },
-            record: el_centro(),
-        }
+        Self::on_el_centro("strongly damped", vertical, horizontal)
     }
 
     /// The same ratios, which hardly bounce, at any frequency (Hz).
     pub fn plain(omega_n_hz: f64) -> Self {
         let chain = Design::from_kc(0.5, 0.2, 0.92, omega_n_hz);
-        let springs = Springs { vertical: chain, horizontal: chain };
-        Self { name: "mu 0.5, K 0.2, C 0.92", springs, record: el_centro() }
+        Self::on_el_centro("mu 0.5, K 0.2, C 0.92", chain, chain)
     }
 
     /// What the engineer's deck is made of.
