@@ -77,36 +77,29 @@ impl Suites {
         effort: &Effort,
     ) -> Self {
         let (p, alpha) = (body.p(), body.alpha());
-        let well =
-            |record| ReferenceMotion::new(body, restitution, record, WantedMotion::WellConditioned);
-        let standing = |record| {
-            ReferenceMotion::new(
-                body,
-                restitution,
-                record,
-                WantedMotion::WellConditionedWhileItStands,
-            )
-        };
-        let predictable =
-            |record| ReferenceMotion::new(body, restitution, record, WantedMotion::Predictable);
-        let mild = |record| {
-            ReferenceMotion::new(body, restitution, record, WantedMotion::PredictableWhileItStands)
-        };
+        let fit = |record, wanted| ReferenceMotion::new(body, restitution, record, wanted);
         let earthquake = |i| synthetic::earthquake(seed, i, p);
-        let as_they_are =
-            || first(EARTHQUAKES, 0..LOOKED_AT, effort, |i| predictable(earthquake(i)));
+        let as_they_are = || {
+            let pick = |i| fit(earthquake(i), WantedMotion::Predictable);
+            first(EARTHQUAKES, 0..LOOKED_AT, effort, pick)
+        };
         let synthetic = || {
-            first(SYNTHETIC, 0..LOOKED_AT, effort, |i| well(synthetic::record(seed, i, p, alpha)))
+            let motion = |i| synthetic::record(seed, i, p, alpha);
+            let pick = |i| fit(motion(i), WantedMotion::WellConditioned);
+            first(SYNTHETIC, 0..LOOKED_AT, effort, pick)
         };
         // side by side: the last motion of a batch leaves a core to the other suite
         let (mut earthquakes, synthetic) = parallel::join(as_they_are, synthetic);
         let missing = EARTHQUAKES - earthquakes.len();
-        let mild = first(missing, 0..LOOKED_AT, effort, |i| mild(milder(earthquake(i), alpha)?));
+        let mild = first(missing, 0..LOOKED_AT, effort, |i| {
+            fit(milder(earthquake(i), alpha)?, WantedMotion::PredictableWhileItStands)
+        });
         let scaled_down = mild.len();
         earthquakes.extend(mild);
         Self {
             body: *body,
-            record: record.and_then(|record| standing(record.clone())),
+            record: record
+                .and_then(|record| fit(record.clone(), WantedMotion::WellConditionedWhileItStands)),
             synthetic,
             earthquakes,
             scaled_down,
