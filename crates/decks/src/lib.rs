@@ -43,7 +43,7 @@ use parameters::{
     Parameters,
     predictability::{simulate, width_sensitivity},
 };
-use rocking::motion::Motion;
+use rocking::{members::Members, motion::Motion};
 pub use sap2000::sap_function;
 pub use step_count::deck_steps;
 pub use stepped_model::{SteppedModel, stepped_model};
@@ -324,15 +324,8 @@ pub fn export(
 
 /// The text of a deck.
 fn export_model(model: &DeckModel, format: DeckFormat) -> Result<String, ExportError> {
-    let (members, sap2000) = (&model.members, format.is_sap2000());
-    for (name, left_out) in [
-        ("friction", members.friction.is_some() && sap2000),
-        ("damper", members.damper.is_some() && sap2000),
-        ("tendon", members.tendon.is_some() && sap2000),
-    ] {
-        if left_out {
-            return Err(ExportError::Member { name, format: format.name() });
-        }
+    if let Some(name) = member(&model.members).filter(|_| format.is_sap2000()) {
+        return Err(ExportError::Member { name, format: format.name() });
     }
     Ok(match format {
         DeckFormat::OpenSeesPy => opensees::python(model)?,
@@ -346,6 +339,16 @@ fn export_model(model: &DeckModel, format: DeckFormat) -> Result<String, ExportE
             plain::markdown(&title, model.even.as_ref(), &model.places())
         }
     })
+}
+
+/// The first of a structure's members, by name.
+fn member(members: &Members) -> Option<&'static str> {
+    let all = [
+        members.friction.map(|_| "friction"),
+        members.damper.map(|_| "damper"),
+        members.tendon.map(|_| "tendon"),
+    ];
+    all.into_iter().flatten().next()
 }
 
 /// A name that is harmless inside a comment or a string of any of the programs.

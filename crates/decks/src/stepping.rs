@@ -24,7 +24,7 @@ use strong_motion::Record;
 use crate::{
     DeckFormat, Expected, ExportError,
     beside::housner_range,
-    export_model,
+    export_model, member,
     model::{ACCURACY, DeckModel, with_inertia},
 };
 
@@ -241,15 +241,8 @@ impl Stepped {
         format: DeckFormat,
         stepping: Stepping,
     ) -> Result<Self, ExportError> {
-        let members = parameters.members();
-        for (name, there) in [
-            ("friction", members.friction.is_some()),
-            ("damper", members.damper.is_some()),
-            ("tendon", members.tendon.is_some()),
-        ] {
-            if there {
-                return Err(ExportError::MemberOfSteps { name });
-            }
+        if let Some(name) = member(&parameters.members()) {
+            return Err(ExportError::MemberOfSteps { name });
         }
         if stepping == Stepping::Touches && format.is_sap2000() {
             return Err(ExportError::TouchesInTables);
