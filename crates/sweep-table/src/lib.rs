@@ -112,6 +112,54 @@ impl Column {
     }
 }
 
+/// A table in the making: one column after another, of the same rows.
+#[derive(Debug)]
+pub struct TableOf<'a, R> {
+    rows: &'a [R],
+    table: SweepTable,
+}
+
+impl<'a, R> TableOf<'a, R> {
+    /// Of these rows, without columns.
+    pub fn new(rows: &'a [R]) -> Self {
+        Self { rows, table: SweepTable::default() }
+    }
+
+    fn with(mut self, name: &'static str, column: Column) -> Self {
+        self.table.columns.push((name, column));
+        self
+    }
+
+    /// With whole numbers.
+    pub fn count(self, name: &'static str, of: impl Fn(&R) -> u64) -> Self {
+        let column = Column::Count(self.rows.iter().map(|row| of(row) as i64).collect());
+        self.with(name, column)
+    }
+
+    /// With numbers.
+    pub fn real(self, name: &'static str, of: impl Fn(&R) -> Option<f64>) -> Self {
+        let column = Column::Real(self.rows.iter().map(of).collect());
+        self.with(name, column)
+    }
+
+    /// With yes, no or nothing.
+    pub fn flag(self, name: &'static str, of: impl Fn(&R) -> Option<bool>) -> Self {
+        let column = Column::Flag(self.rows.iter().map(of).collect());
+        self.with(name, column)
+    }
+
+    /// With words.
+    pub fn text<T: Into<Arc<str>>>(self, name: &'static str, of: impl Fn(&R) -> T) -> Self {
+        let column = Column::Text(self.rows.iter().map(|row| of(row).into()).collect());
+        self.with(name, column)
+    }
+
+    /// The whole.
+    pub fn table(self) -> SweepTable {
+        self.table
+    }
+}
+
 impl SweepTable {
     /// Number of rows.
     pub fn rows(&self) -> usize {

@@ -1,8 +1,6 @@
 //! Rigid against springs: how Housner's answers and those of the finite elements differ over a
 //! whole sweep.
 
-use std::sync::Arc;
-
 use super::{
     SweepError,
     fragility::subject_name,
@@ -10,7 +8,7 @@ use super::{
     plan::Plan,
     reduce::{self, Histogram},
 };
-use sweep_table::{Column, SweepTable};
+use sweep_table::{SweepTable, TableOf};
 
 /// One structure, or all of them.
 #[derive(Clone, Debug, Default)]
@@ -114,30 +112,20 @@ impl Comparison {
 
     /// `compare.csv`.
     pub fn table(&self, plan: &Plan) -> SweepTable {
-        let count = |of: fn(&ComparisonRow) -> u64| {
-            Column::Count(self.rows.iter().map(|row| of(row) as i64).collect())
-        };
-        let real = |of: &dyn Fn(&ComparisonRow) -> Option<f64>| {
-            Column::Real(self.rows.iter().map(of).collect())
-        };
-        let names =
-            self.rows.iter().map(|row| Arc::from(subject_name(plan, row.subject))).collect();
-        SweepTable {
-            columns: vec![
-                ("structure", Column::Text(names)),
-                ("histories", count(|row| row.n)),
-                ("left_out", count(|row| row.left_out)),
-                ("overturned_both", count(|row| row.both)),
-                ("overturned_housner_only", count(|row| row.housner_only)),
-                ("overturned_fem_only", count(|row| row.fem_only)),
-                ("overturned_neither", count(|row| row.neither)),
-                ("agreement", real(&ComparisonRow::agreement)),
-                ("ks_distance_of_peaks", real(&|row| Some(row.ks_distance()))),
-                ("peak_difference_50", real(&|row| row.difference.quantile(0.5))),
-                ("peak_difference_90", real(&|row| row.difference.quantile(0.9))),
-                ("nrmse_50", real(&|row| row.nrmse.quantile(0.5))),
-                ("nrmse_90", real(&|row| row.nrmse.quantile(0.9))),
-            ],
-        }
+        TableOf::new(&self.rows)
+            .text("structure", |row| subject_name(plan, row.subject))
+            .count("histories", |row| row.n)
+            .count("left_out", |row| row.left_out)
+            .count("overturned_both", |row| row.both)
+            .count("overturned_housner_only", |row| row.housner_only)
+            .count("overturned_fem_only", |row| row.fem_only)
+            .count("overturned_neither", |row| row.neither)
+            .real("agreement", ComparisonRow::agreement)
+            .real("ks_distance_of_peaks", |row| Some(row.ks_distance()))
+            .real("peak_difference_50", |row| row.difference.quantile(0.5))
+            .real("peak_difference_90", |row| row.difference.quantile(0.9))
+            .real("nrmse_50", |row| row.nrmse.quantile(0.5))
+            .real("nrmse_90", |row| row.nrmse.quantile(0.9))
+            .table()
     }
 }

@@ -12,14 +12,13 @@ use std::collections::HashMap;
 
 use super::{
     SweepError,
-    lognormal::{LognormalFit, Probit, SymmetricMatrix, quantile},
+    lognormal::{LognormalFit, SymmetricMatrix, quantile},
     parts::SweepParts,
     plan::Plan,
     reduce::{self, MODELS, SeenHistory},
 };
 use fits::{bounds, fits};
-use row::ConfidenceBounds;
-use sweep_table::{Column, SweepTable};
+use sweep_table::{SweepTable, TableOf};
 
 /// What is asked whether it is exceeded.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -258,19 +257,7 @@ impl Fragility {
     /// `fragility.csv`.
     pub fn table(&self, plan: &Plan) -> SweepTable {
         let member = |row: &FragilityRow| &self.members[row.member];
-        let text = |of: &dyn Fn(&FragilityRow) -> String| {
-            Column::Text(self.rows.iter().map(|row| of(row).into()).collect())
-        };
-        let count = |of: &dyn Fn(&FragilityRow) -> u64| {
-            Column::Count(self.rows.iter().map(|row| of(row) as i64).collect())
-        };
-        let real = |of: &dyn Fn(&FragilityRow) -> Option<f64>| {
-            Column::Real(self.rows.iter().map(of).collect())
-        };
-        let bounds = |of: fn(&ConfidenceBounds) -> f64| {
-            real(&|row| row.bounds(self.half_width()).map(|bounds| of(&bounds)))
-        };
-        let probit = |of: fn(&Probit) -> f64| real(&|row| row.probit().map(of));
+        let bounds = |row: &FragilityRow| row.bounds(self.half_width());
         let restitution = |row: &FragilityRow| {
             let member = member(row);
             match (member.subject, &plan.restitutions) {
@@ -279,32 +266,27 @@ impl Fragility {
                 (None, None) => None,
             }
         };
-        SweepTable {
-            columns: vec![
-                ("model", text(&|row| MODELS[member(row).model].into())),
-                ("structure", text(&|row| subject_name(plan, member(row).subject))),
-                ("restitution", real(&restitution)),
-                ("state", text(&|row| row.state.name())),
-                ("measure", text(&|row| MEASURES[row.measure].0.into())),
-                ("unit", text(&|row| MEASURES[row.measure].1.into())),
-                ("histories", count(&|row| row.n)),
-                ("exceeded", count(&|row| row.exceeded)),
-                ("left_out", count(&|row| member(row).excluded)),
-                ("records", count(&|row| member(row).records as u64)),
-                ("fit", text(&|row| row.said().into())),
-                ("median", real(&|row| row.median())),
-                ("median_low", bounds(|bounds| bounds.median.0)),
-                ("median_high", bounds(|bounds| bounds.median.1)),
-                (
-                    "extrapolated",
-                    Column::Flag(self.rows.iter().map(|row| Some(row.is_extrapolated())).collect()),
-                ),
-                ("beta", probit(Probit::beta)),
-                ("beta_low", bounds(|bounds| bounds.beta.0)),
-                ("beta_high", bounds(|bounds| bounds.beta.1)),
-                ("log_likelihood", probit(|fit| fit.log_likelihood)),
-            ],
-        }
+        TableOf::new(&self.rows)
+            .text("model", |row| MODELS[member(row).model])
+            .text("structure", |row| subject_name(plan, member(row).subject))
+            .real("restitution", restitution)
+            .text("state", |row| row.state.name())
+            .text("measure", |row| MEASURES[row.measure].0)
+            .text("unit", |row| MEASURES[row.measure].1)
+            .count("histories", |row| row.n)
+            .count("exceeded", |row| row.exceeded)
+            .count("left_out", |row| member(row).excluded)
+            .count("records", |row| member(row).records as u64)
+            .text("fit", |row| row.said())
+            .real("median", |row| row.median())
+            .real("median_low", |row| Some(bounds(row)?.median.0))
+            .real("median_high", |row| Some(bounds(row)?.median.1))
+            .flag("extrapolated", |row| Some(row.is_extrapolated()))
+            .real("beta", |row| Some(row.probit()?.beta()))
+            .real("beta_low", |row| Some(bounds(row)?.beta.0))
+            .real("beta_high", |row| Some(bounds(row)?.beta.1))
+            .real("log_likelihood", |row| Some(row.probit()?.log_likelihood))
+            .table()
     }
 }
 

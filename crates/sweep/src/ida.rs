@@ -1,15 +1,13 @@
 //! Incremental dynamic analysis: peak |theta|/alpha against the level, over all records of a
 //! structure.
 
-use std::sync::Arc;
-
 use super::{
     SweepError,
     parts::SweepParts,
     plan::Plan,
     reduce::{self, Histogram, MODELS},
 };
-use sweep_table::{Column, SweepTable};
+use sweep_table::{SweepTable, TableOf};
 
 /// One structure and restitution at one level, by one model.
 #[derive(Clone, Debug)]
@@ -139,35 +137,21 @@ impl Ida {
 
     /// `ida.csv`.
     pub fn table(&self, plan: &Plan) -> SweepTable {
-        let points = &self.points;
-        let count = |of: fn(&IdaPoint) -> u64| {
-            Column::Count(points.iter().map(|point| of(point) as i64).collect())
-        };
-        let real =
-            |of: &dyn Fn(&IdaPoint) -> Option<f64>| Column::Real(points.iter().map(of).collect());
-        let text = |of: &dyn Fn(&IdaPoint) -> String| {
-            Column::Text(points.iter().map(|p| Arc::from(of(p))).collect())
-        };
         let share = |k: u64, n: u64| (n > 0).then(|| k as f64 / n as f64);
-        SweepTable {
-            columns: vec![
-                ("model", text(&|point| MODELS[point.model].into())),
-                ("structure", text(&|point| plan.subjects[point.subject].name.clone())),
-                ("alpha", real(&|point| Some(plan.subjects[point.subject].alpha))),
-                ("p_per_s", real(&|point| Some(plan.subjects[point.subject].p))),
-                (
-                    "restitution",
-                    real(&|point| Some(plan.restitution(point.subject, point.restitution))),
-                ),
-                ("level", real(&|point| Some(point.level))),
-                ("histories", count(|point| point.n)),
-                ("left_out", count(|point| point.left_out)),
-                ("share_rocking", real(&|point| share(point.lifted, point.n))),
-                ("share_overturned", real(&|point| share(point.overturned, point.n))),
-                ("peak_16", real(&|point| point.quantile(0.16))),
-                ("peak_50", real(&|point| point.quantile(0.5))),
-                ("peak_84", real(&|point| point.quantile(0.84))),
-            ],
-        }
+        TableOf::new(&self.points)
+            .text("model", |point| MODELS[point.model])
+            .text("structure", |point| plan.subjects[point.subject].name.clone())
+            .real("alpha", |point| Some(plan.subjects[point.subject].alpha))
+            .real("p_per_s", |point| Some(plan.subjects[point.subject].p))
+            .real("restitution", |point| Some(plan.restitution(point.subject, point.restitution)))
+            .real("level", |point| Some(point.level))
+            .count("histories", |point| point.n)
+            .count("left_out", |point| point.left_out)
+            .real("share_rocking", |point| share(point.lifted, point.n))
+            .real("share_overturned", |point| share(point.overturned, point.n))
+            .real("peak_16", |point| point.quantile(0.16))
+            .real("peak_50", |point| point.quantile(0.5))
+            .real("peak_84", |point| point.quantile(0.84))
+            .table()
     }
 }

@@ -18,7 +18,7 @@ use super::{
     plan::Plan,
 };
 use rocking::structure::{Body, Kind, Structure};
-use sweep_table::{Column, SweepTable};
+use sweep_table::{SweepTable, TableOf};
 
 /// How far a structure moves at a lean (m).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -119,8 +119,6 @@ pub(crate) fn telling<'a>(
 /// Columns of `ida.csv` beside those of the peaks: bounds on the share that overturns,
 /// displacements of the quantiles.
 pub fn columns(plan: &Plan, ida: &Ida, z: f64) -> SweepTable {
-    let real =
-        |of: &dyn Fn(&IdaPoint) -> Option<f64>| Column::Real(ida.points.iter().map(of).collect());
     let bounds = |point: &IdaPoint| wilson(point.overturned, point.n, z);
     let at = |point: &IdaPoint, share: f64| {
         Some(LeanDisplacements::new(
@@ -128,18 +126,16 @@ pub fn columns(plan: &Plan, ida: &Ida, z: f64) -> SweepTable {
             point.quantile(share)?,
         ))
     };
-    SweepTable {
-        columns: vec![
-            ("overturned_low", real(&|point| Some(bounds(point)?.0))),
-            ("overturned_high", real(&|point| Some(bounds(point)?.1))),
-            ("top_16_m", real(&|point| Some(at(point, 0.16)?.top_m))),
-            ("top_50_m", real(&|point| Some(at(point, 0.5)?.top_m))),
-            ("top_84_m", real(&|point| Some(at(point, 0.84)?.top_m))),
-            ("uplift_16_m", real(&|point| Some(at(point, 0.16)?.uplift_m))),
-            ("uplift_50_m", real(&|point| Some(at(point, 0.5)?.uplift_m))),
-            ("uplift_84_m", real(&|point| Some(at(point, 0.84)?.uplift_m))),
-        ],
-    }
+    TableOf::new(&ida.points)
+        .real("overturned_low", |point| Some(bounds(point)?.0))
+        .real("overturned_high", |point| Some(bounds(point)?.1))
+        .real("top_16_m", |point| Some(at(point, 0.16)?.top_m))
+        .real("top_50_m", |point| Some(at(point, 0.5)?.top_m))
+        .real("top_84_m", |point| Some(at(point, 0.84)?.top_m))
+        .real("uplift_16_m", |point| Some(at(point, 0.16)?.uplift_m))
+        .real("uplift_50_m", |point| Some(at(point, 0.5)?.uplift_m))
+        .real("uplift_84_m", |point| Some(at(point, 0.84)?.uplift_m))
+        .table()
 }
 
 #[cfg(test)]

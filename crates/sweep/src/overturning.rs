@@ -15,7 +15,7 @@
 //! so that Housner's histories end with the pulse and a decision is exact however long the body
 //! would take. On springs the record goes on for 12/p.
 
-use std::{ops::Range, sync::Arc};
+use std::ops::Range;
 
 use super::{
     SweepError,
@@ -30,7 +30,7 @@ use rocking::{
     structure::Body,
 };
 use strong_motion::{Record, Source};
-use sweep_table::{Column, SweepTable};
+use sweep_table::{SweepTable, TableOf};
 
 /// An interval of PGA/(g tan alpha) that overturns after one number of impacts; an end is missing
 /// where the scan ends first.
@@ -260,38 +260,27 @@ pub fn table(plan: &Plan, rows: &[OverturningRow]) -> SweepTable {
         .flat_map(|row| row.intervals.iter().enumerate().map(move |(i, found)| (row, i, found)))
         .collect();
     let subject = |row: &OverturningRow| &plan.subjects[row.cell.subject];
-    let count = |of: &dyn Fn(&OverturningRow, usize) -> i64| {
-        Column::Count(all.iter().map(|(row, i, _)| of(row, *i)).collect())
-    };
-    let real = |of: &dyn Fn(&OverturningRow, &OverturningInterval) -> Option<f64>| {
-        Column::Real(all.iter().map(|(row, _, found)| of(row, found)).collect())
-    };
-    let text = |of: &dyn Fn(&OverturningRow) -> String| {
-        Column::Text(all.iter().map(|(row, ..)| Arc::from(of(row))).collect())
-    };
     let pulse = |row: &OverturningRow| match &plan.motions[row.cell.motion] {
         SweepMotion::Pulse { shape, .. } => shape.label(),
         other => other.name(),
     };
     let restitution =
         |row: &OverturningRow| plan.restitution(row.cell.subject, row.cell.restitution);
-    SweepTable {
-        columns: vec![
-            ("cell", count(&|row, _| row.cell.index as i64)),
-            ("structure_index", count(&|row, _| row.cell.subject as i64)),
-            ("structure", text(&|row| subject(row).name.clone())),
-            ("alpha", real(&|row, _| Some(subject(row).alpha))),
-            ("p_per_s", real(&|row, _| Some(subject(row).p))),
-            ("restitution", real(&|row, _| Some(restitution(row)))),
-            ("pulse", text(&pulse)),
-            ("omega_over_p", real(&|row, _| Some(row.omega_over_p))),
-            ("model", text(&|row| row.model.to_string())),
-            ("interval", count(&|_, i| i as i64 + 1)),
-            ("from_over_uplift", real(&|_, found| found.from)),
-            ("to_over_uplift", real(&|_, found| found.to)),
-            ("impacts", real(&|_, found| found.impacts.map(|n| n as f64))),
-        ],
-    }
+    TableOf::new(&all)
+        .count("cell", |(row, ..)| row.cell.index)
+        .count("structure_index", |(row, ..)| row.cell.subject as u64)
+        .text("structure", |(row, ..)| subject(row).name.clone())
+        .real("alpha", |(row, ..)| Some(subject(row).alpha))
+        .real("p_per_s", |(row, ..)| Some(subject(row).p))
+        .real("restitution", |(row, ..)| Some(restitution(row)))
+        .text("pulse", |(row, ..)| pulse(row))
+        .real("omega_over_p", |(row, ..)| Some(row.omega_over_p))
+        .text("model", |(row, ..)| row.model.to_string())
+        .count("interval", |(_, i, _)| *i as u64 + 1)
+        .real("from_over_uplift", |(.., found)| found.from)
+        .real("to_over_uplift", |(.., found)| found.to)
+        .real("impacts", |(.., found)| found.impacts.map(|n| n as f64))
+        .table()
 }
 
 #[cfg(test)]

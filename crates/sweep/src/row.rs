@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::plan::Plan;
-use sweep_table::{Column, SweepTable};
+use sweep_table::{SweepTable, TableOf};
 
 /// How a history ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,28 +79,24 @@ pub struct HistoryRow {
 
 /// Columns that a sweep of histories has.
 pub fn table(plan: &Plan, rows: &[HistoryRow]) -> SweepTable {
-    let count = |of: fn(&HistoryRow) -> i64| Column::Count(rows.iter().map(of).collect());
-    let real =
-        |of: &dyn Fn(&HistoryRow) -> Option<f64>| Column::Real(rows.iter().map(of).collect());
     let names: Vec<Arc<str>> =
         plan.subjects.iter().map(|subject| subject.name.as_str().into()).collect();
     let subject = |row: &HistoryRow| &plan.subjects[row.subject];
-    let mut columns = vec![
-        ("cell", count(|row| row.cell as i64)),
-        ("structure_index", count(|row| row.subject as i64)),
-        ("structure", Column::Text(rows.iter().map(|row| names[row.subject].clone()).collect())),
-        ("alpha", real(&|row| Some(subject(row).alpha))),
-        ("p_per_s", real(&|row| Some(subject(row).p))),
-        ("restitution", real(&|row| Some(row.restitution))),
-        ("record_index", count(|row| row.motion as i64)),
-        ("record", Column::Text(rows.iter().map(|row| row.record.clone()).collect())),
-        ("level", real(&|row| Some(row.level))),
-        ("scale", real(&|row| Some(row.scale))),
-        ("pga_m_per_s2", real(&|row| Some(row.pga))),
-        ("pgv_m_per_s", real(&|row| Some(row.pgv))),
-        ("pga_over_uplift", real(&|row| Some(row.pga / subject(row).uplift()))),
-        ("pgv_over_uplift", real(&|row| Some(subject(row).p * row.pgv / subject(row).uplift()))),
-    ];
+    let mut table = TableOf::new(rows)
+        .count("cell", |row| row.cell)
+        .count("structure_index", |row| row.subject as u64)
+        .text("structure", |row| names[row.subject].clone())
+        .real("alpha", |row| Some(subject(row).alpha))
+        .real("p_per_s", |row| Some(subject(row).p))
+        .real("restitution", |row| Some(row.restitution))
+        .count("record_index", |row| row.motion as u64)
+        .text("record", |row| row.record.clone())
+        .real("level", |row| Some(row.level))
+        .real("scale", |row| Some(row.scale))
+        .real("pga_m_per_s2", |row| Some(row.pga))
+        .real("pgv_m_per_s", |row| Some(row.pgv))
+        .real("pga_over_uplift", |row| Some(row.pga / subject(row).uplift()))
+        .real("pgv_over_uplift", |row| Some(subject(row).p * row.pgv / subject(row).uplift()));
     type AnswerOf = fn(&HistoryRow) -> Option<CellAnswer>;
     let models: [(_, AnswerOf, [&'static str; 3]); 2] = [
         (
@@ -114,32 +110,25 @@ pub fn table(plan: &Plan, rows: &[HistoryRow]) -> SweepTable {
         if !asked {
             continue;
         }
-        let word = |row: &HistoryRow| {
-            Arc::from(of(row).map_or(CellOutcome::Failed, |answer| answer.outcome).name())
-        };
+        let word =
+            |row: &HistoryRow| of(row).map_or(CellOutcome::Failed, |answer| answer.outcome).name();
         let known = |row: &HistoryRow| {
             of(row)
                 .filter(|a| !matches!(a.outcome, CellOutcome::Failed | CellOutcome::LeavesGround))
         };
-        columns.push((outcome, Column::Text(rows.iter().map(word).collect())));
-        let flags = rows
-            .iter()
-            .map(|row| known(row).map(|a| a.outcome == CellOutcome::Overturned))
-            .collect();
-        columns.push((overturned, Column::Flag(flags)));
-        columns.push((peak, real(&|row| of(row).and_then(|a| a.peak))));
+        table = table
+            .text(outcome, word)
+            .flag(overturned, |row| Some(known(row)?.outcome == CellOutcome::Overturned))
+            .real(peak, |row| of(row)?.peak);
         // on springs neither is kept
         if i == 0 {
-            columns.push((
-                "housner_impacts",
-                real(&|row| of(row).and_then(|a| a.impacts).map(|n| n as f64)),
-            ));
-            columns
-                .push(("housner_overturned_s", real(&|row| of(row).and_then(|a| a.overturned_s))));
+            table = table
+                .real("housner_impacts", |row| Some(of(row)?.impacts? as f64))
+                .real("housner_overturned_s", |row| of(row)?.overturned_s);
         }
     }
     if plan.model.housner() && plan.model.fem() {
-        columns.push(("nrmse", real(&|row| row.nrmse)));
+        table = table.real("nrmse", |row| row.nrmse);
     }
-    SweepTable { columns }
+    table.table()
 }
