@@ -34,12 +34,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // what the springs reach, and on what it was measured
     if let Some(assessment) = &springs.assessment {
         println!("accuracy {} asked for, reached: {}", assessment.accuracy, assessment.reached);
-        println!("error of the history on this record: {:?}", assessment.measured.record);
+        // none of a record on which the springs are not judged
+        if let Some(error) = assessment.measured.record {
+            println!("error of the history on this record: NRMSE {error:.1e}");
+        }
     }
     // what the body does on this record, by both models
     let (_, verdict) = compare(&springs, &case.record);
     println!("Housner: {:?}; on springs: {:?}", verdict.housner.fate, verdict.finite_elements.fate);
-    println!("NRMSE of u {:?}, over {:.2} s", verdict.nrmse_horizontal, verdict.compared_s);
+    if let Some(error) = verdict.nrmse_horizontal {
+        println!("NRMSE of u {error:.1e}, over {:.2} s", verdict.compared_s);
+    }
 
     // the file that every command of `tune` reads, as `tune export --parameters`
     let path = std::env::temp_dir().join("parameters.json");
