@@ -77,6 +77,8 @@ pub struct ElasticDeck<'a> {
     /// The program with steps of one size that the springs are for, in place of steps that follow
     /// touches.
     pub program: Option<&'a CornerProgram>,
+    /// When the emulation of that program gives up on the record, which is where the deck ends (s).
+    pub gives_up_s: Option<f64>,
 }
 
 impl ElasticDeck<'_> {
@@ -118,7 +120,8 @@ impl ElasticDeck<'_> {
 
     /// Settings of steps of one size, if the springs are for such.
     fn even(&self) -> Option<EvenSteps> {
-        self.program.map(CornerProgram::steps)
+        let steps = self.program.map(CornerProgram::steps);
+        steps.map(|steps| EvenSteps { gives_up_s: self.gives_up_s, ..steps })
     }
 
     /// The corners from the left, and what is under them.

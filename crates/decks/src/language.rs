@@ -7,6 +7,7 @@
 use std::fmt::Write;
 
 use super::{ExportError, model::digits, stepping::EvenSteps};
+use files::message::significant;
 use strong_motion::Record;
 
 /// A language and its fragments.
@@ -20,6 +21,9 @@ pub(super) struct Language {
     integrator: fn(&[String]) -> String,
     solver: &'static str,
     epilogue: &'static str,
+    /// What ends the epilogue, and what stops it with a reason.
+    ends: &'static str,
+    stops: [&'static str; 2],
     /// Springs of beams that give in shear, and their list: its head, and its rows' and its own
     /// end.
     pub shear_springs: &'static str,
@@ -44,6 +48,8 @@ pub(super) static PYTHON: Language = Language {
     },
     solver: include_str!("solver.py"),
     epilogue: include_str!("epilogue.py"),
+    ends: "    return 0 if good else 1\n",
+    stops: ["    stop(\"", "\")\n"],
     shear_springs: include_str!("elastic_shear.py"),
     shear_list: ["SHEAR = {", "}"],
     brackets: ["(", ")"],
@@ -59,6 +65,8 @@ pub(super) static TCL: Language = Language {
     integrator: |arguments| format!("solver {{{}}} Transient", arguments.join(" ")),
     solver: include_str!("solver.tcl"),
     epilogue: include_str!("epilogue.tcl"),
+    ends: "exit [expr {1 - $good}]\n",
+    stops: ["stop \"", "\"\n"],
     shear_springs: include_str!("elastic_shear.tcl"),
     shear_list: ["set shear {", "}"],
     brackets: ["{", "}"],
@@ -156,7 +164,15 @@ impl Language {
             true => format!("    {call}\n"),
             false => format!("{line}\n"),
         };
-        Ok(lines.map(line).collect())
+        let text: String = lines.map(line).collect();
+        let Some(time) = even.gives_up_s else { return Ok(text) };
+        let [before, after] = self.stops;
+        let reason = format!(
+            "the emulation of these steps gives up at {} s, where the deck ends: take another \
+             integrator or another step, longer ones too",
+            significant(time, 4)
+        );
+        Ok(text.replace(self.ends, &format!("{before}{reason}{after}")))
     }
 
     /// Samples, four a line.

@@ -87,6 +87,8 @@ pub(crate) struct EvenSteps {
     pub errors: [Option<ProgramErrors>; 2],
     /// Whether the program is ETABS.
     pub etabs: bool,
+    /// When the emulation gives up on the record, which is where a deck ends (s).
+    pub gives_up_s: Option<f64>,
 }
 
 impl EvenSteps {
@@ -107,6 +109,7 @@ impl EvenSteps {
             not_to_be_used: row.not_to_be_used(),
             errors: [row.expected.synthetic, row.expected.earthquakes],
             etabs: row.is_etabs(),
+            gives_up_s: None,
         }
     }
 
@@ -270,7 +273,8 @@ impl Stepped {
         let model = DeckModel::new(&self.parameters, record, &self.expected(motion, compared))?;
         let beside = (format == DeckFormat::Sap2000Sheet)
             .then(|| housner_range(&self.given, &self.parameters, record, compared));
-        let model = DeckModel { even: Some(self.steps), housner: beside.flatten(), ..model };
+        let even = Some(EvenSteps { gives_up_s, ..self.steps });
+        let model = DeckModel { even, housner: beside.flatten(), ..model };
         let text = export_model(&model, format)?;
         Ok(SteppedDeck { text, gives_up_s, until })
     }

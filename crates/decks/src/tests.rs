@@ -47,6 +47,7 @@ fn even_steps() -> EvenSteps {
         not_to_be_used: None,
         errors: [None; 2],
         etabs: false,
+        gives_up_s: None,
     }
 }
 

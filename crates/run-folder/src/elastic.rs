@@ -114,13 +114,13 @@ pub fn deck(
     (history, until): (&ElasticHistory, Option<f64>),
     (format, accuracy): (DeckFormat, f64),
 ) -> Result<String, ExportError> {
-    deck_of(assembled, (springs, None), record, (&history.q, until), (format, accuracy))
+    deck_of(assembled, (springs, None, None), record, (&history.q, until), (format, accuracy))
 }
 
 /// The same of any springs and history, which is compared up to a time (s) if one is given.
 fn deck_of(
     assembled: &Assembled,
-    (springs, program): (&[Springs<Chain>], Option<&CornerProgram>),
+    (springs, program, gives_up_s): (&[Springs<Chain>], Option<&CornerProgram>, Option<f64>),
     record: &Record,
     (history, until): (&[Vec<f64>], Option<f64>),
     (format, accuracy): (DeckFormat, f64),
@@ -145,6 +145,7 @@ fn deck_of(
         frequency_hz: assembled.structure.fixed_base_frequency_hz(),
         accuracy,
         program,
+        gives_up_s,
     }
     .text(format)
 }

@@ -61,6 +61,7 @@ fn deck_of(
         frequency_hz: 2.0,
         accuracy: 0.002,
         program,
+        gives_up_s: None,
     }
     .text(format)
 }

@@ -109,6 +109,29 @@ fn a_deck_that_ends_before_its_record_says_so() {
 }
 
 /// Steps of 20 ms are too long for a block 2 m tall.
+/// A deck that ends where the emulation gives up does not end as one that has followed its record:
+/// its last line stops it, which is exit code 2.
+#[test]
+fn a_deck_without_the_end_of_its_record_stops() {
+    let whole = for_program(ProgramName::OpenSees, 0.002);
+    let mut cut = whole.clone();
+    let row = cut.program.as_mut().unwrap();
+    // without algorithmic damping nothing ends what a landing leaves in the springs
+    (row.integrator, row.substeps) = (Integrator::AVERAGE_ACCELERATION, 1);
+    let record = Record::el_centro().truncated(8.0);
+    for (format, ends, stops) in [
+        (DeckFormat::OpenSeesPy, "    return 0 if good else 1\n", "    stop(\"the emulation of"),
+        (DeckFormat::OpenSeesTcl, "exit [expr {1 - $good}]\n", "\nstop \"the emulation of"),
+    ] {
+        let text = text(&whole, format, Stepping::Even);
+        assert!(text.contains(ends) && !text.contains(stops), "{format:?}");
+        let deck = stepped_deck(&cut, &record, format, Stepping::Even, None).unwrap();
+        let time = format!("gives up at {} s", significant(deck.gives_up_s.unwrap(), 4));
+        assert!(!deck.text.contains(ends) && deck.text.contains(stops));
+        assert!(deck.text.contains(&time), "{format:?}: {time}");
+    }
+}
+
 #[test]
 fn springs_of_no_use_are_marked_in_every_format() {
     let formats =

@@ -34,7 +34,7 @@ fn stepped_deck_of(
     until: Option<f64>,
 ) -> Result<SteppedDeck, ExportError> {
     let until = [until, *foretold_s].into_iter().flatten().min_by(f64::total_cmp);
-    let springs = (&program.row.units.chains()[..], Some(program));
+    let springs = (&program.row.units.chains()[..], Some(program), *gives_up_s);
     let text = deck_of(assembled, springs, record, (coordinates, until), (format, ACCURACY))?;
     Ok(SteppedDeck { text, gives_up_s: *gives_up_s, until })
 }
