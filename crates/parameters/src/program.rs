@@ -65,6 +65,14 @@ pub struct ProgramExpected {
     pub earthquakes: Option<ProgramErrors>,
 }
 
+impl ProgramExpected {
+    /// Histories that the program does not get through, and all that it was tried on.
+    pub fn lost(&self) -> [usize; 2] {
+        let all = [self.synthetic, self.earthquakes].into_iter().flatten();
+        all.fold([0; 2], |[lost, all], errors| [lost + errors.lost, all + errors.histories])
+    }
+}
+
 /// When an iteration at a step's end has arrived.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

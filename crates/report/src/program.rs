@@ -311,13 +311,12 @@ pub fn with_verdict<U>(
     findings
 }
 
-/// That a program does not get through one history in twenty.
+/// That a program does not get through one history in twenty, of all that it was tried on.
 pub(crate) fn lost<U>(row: &ProgramRow<U>, asked: bool) -> Option<Finding> {
     if matches!(row.not_to_be_used(), Some(NotToBeUsed { fault: ProgramFault::Lost { .. }, .. })) {
         return None;
     }
-    let errors = row.expected.synthetic?;
-    let (lost, histories) = (errors.lost, errors.histories);
+    let [lost, histories] = row.expected.lost();
     let many = lost as f64 > (1.0 - THROUGH) * histories as f64;
     let (program, step_s, csi) = (row.program(), row.step_s, row.is_csi());
     many.then_some(Finding::ProgramLoses { program, step_s, lost, histories, csi, asked })

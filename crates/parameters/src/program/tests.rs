@@ -30,6 +30,17 @@ fn row(floor: f64, synthetic: Option<f64>) -> ProgramRow<()> {
     }
 }
 
+/// Those lost of both sets count, as on the line of a program's springs.
+#[test]
+fn histories_lost_are_those_of_all_motions() {
+    let expected = ProgramExpected {
+        earthquakes: Some(ProgramErrors { histories: 16, lost: 6, ..errors(Some(0.1)) }),
+        ..row(0.02, None).expected
+    };
+    assert_eq!(expected.lost(), [26, 40]);
+    assert_eq!(ProgramExpected { synthetic: None, ..expected }.lost(), [6, 16]);
+}
+
 fn with_top(row: ProgramRow<()>, top: f64, predictable: bool) -> ProgramRow<()> {
     let predictable = Some(predictable);
     let on_record = ProgramOnRecord { predictable, ..ProgramOnRecord::of(None, None) };

@@ -56,8 +56,7 @@ pub(super) fn errors<U>(
     let [median, ninety] = errors.peak.map(cell);
     let history = errors.history[0];
     let history = history.map_or(String::new(), |x| format!(", NRMSE {}", significant(x, 2)));
-    let [lost, all] =
-        suites.iter().fold([0; 2], |[lost, all], (_, e)| [lost + e.lost, all + e.histories]);
+    let [lost, all] = row.expected.lost();
     let each = |(name, e): &(&str, ProgramErrors)| format!("{} of {} {name}", e.lost, e.histories);
     let fails = match (lost, words) {
         (0, _) => nothing(),
