@@ -71,6 +71,33 @@ fn a_block_that_slides_is_newmarks() {
     assert!((cells[0] / cells[1] - 1.0).abs() < 0.01 && cells[2] < 0.1 * cells[1], "{top}");
 }
 
+/// Stout blocks that slide by decimetres are followed to the end of the record, and slide as a
+/// block on a plane: springs are no stiffer than the digits of a place allow.
+#[test]
+fn blocks_that_slide_far_are_newmarks_to_the_end() {
+    for (height, width, friction, scale) in
+        [(1.2, 1.4, 0.2, 3.0), (1.6, 1.2, 0.3, 4.0), (0.5, 0.6, 0.1, 2.0)]
+    {
+        let (said, parameters, _) = run(
+            &format!(
+                "[structure]\nkind = 'block'\ntotal_height_m = {height}\nwidth_m = {width}\n\
+                 mass_kg = 1200.0\n[friction]\ncoefficient = {friction}\n[record]\n\
+                 scale = {scale}\n"
+            ),
+            "--no-front",
+        );
+        assert!(said.contains("slides and does not rock"), "{said}");
+        let mut record = Record::el_centro();
+        record.accel.iter_mut().for_each(|a| *a *= scale);
+        let slides = finding(&parameters, "slides").unwrap();
+        let [largest, left] = block_on_a_plane(&record, friction);
+        for (key, due) in [("largest_m", largest), ("left_m", left)] {
+            let found = slides[key].as_f64().unwrap();
+            assert!((found - due).abs() < 5e-3 * largest, "{height} m, {key}: {found}, {due}");
+        }
+    }
+}
+
 /// What a vertical component that is left out would change is told of the body as it is: of one
 /// that slides its slip.
 #[test]

@@ -4,6 +4,7 @@
 mod error;
 mod landing_design;
 mod procedure;
+mod sliding;
 
 use std::f64::consts::TAU;
 
