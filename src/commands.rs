@@ -96,7 +96,7 @@ pub enum CommandError {
     Geometry(#[from] GeometryError),
     #[error(transparent)]
     Figure(#[from] FigureError),
-    #[error(transparent)]
+    #[error("{}", .0.with_options())]
     Export(#[from] ExportError),
     #[error(transparent)]
     Sweep(#[from] SweepError),

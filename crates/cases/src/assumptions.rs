@@ -1,6 +1,8 @@
 //! What the program took by itself where a case left it out: the quantity, the value, the key that
 //! sets it.
 
+use std::fmt;
+
 use super::{Case, ElasticCase};
 use files::message::{quantity, significant};
 use frames::structure::ElasticStructure;
@@ -76,6 +78,14 @@ fn assumption(
     Assumption { quantity, value, unit, key }
 }
 
+/// In one line: what it is with its value, and the key that sets it.
+impl fmt::Display for Assumption {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [what, key] = self.told();
+        write!(f, "{what} ({key})")
+    }
+}
+
 impl Assumption {
     /// What it is with its value, and the key that sets it.
     pub fn told(&self) -> [String; 2] {
@@ -89,7 +99,8 @@ impl Assumption {
 }
 
 impl Case {
-    /// What was left out and taken by itself: of the body, then of its ground motion.
+    /// What was left out and taken by itself: of the body and of its ground motion, what weighs
+    /// most first. Each can be printed.
     pub fn assumptions(&self) -> Vec<Assumption> {
         use AssumedQuantity::{LeastInertia, Restitution, SolidInertia};
         let mut all = Vec::new();

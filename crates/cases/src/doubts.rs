@@ -82,14 +82,13 @@ const VERTICAL_SHARE: f64 = 0.5;
 const STOCKIEST: f64 = 0.9;
 
 impl Case {
-    /// Doubts of the body and of its ground motion, in this order.
+    /// Doubts of the body and of its ground motion, in this order. Each can be printed.
     pub fn doubts(&self) -> Vec<Doubt> {
-        let mut doubts = self.doubts_of_structure();
-        doubts.extend(of_excitation(&self.excitation));
-        doubts
+        with_motion(self.doubts_of_structure(), &self.excitation)
     }
 
     /// Doubts of the body alone.
+    #[doc(hidden)]
     pub fn doubts_of_structure(&self) -> Vec<Doubt> {
         of_structure(&self.structure, &self.given)
     }
@@ -115,9 +114,7 @@ fn of_structure(body: &Structure, given: &GivenKeys) -> Vec<Doubt> {
 impl ElasticCase {
     /// Doubts of the structure and of its ground motion, in this order.
     pub fn doubts(&self) -> Vec<Doubt> {
-        let mut doubts = self.doubts_of_structure();
-        doubts.extend(of_excitation(&self.excitation));
-        doubts
+        with_motion(self.doubts_of_structure(), &self.excitation)
     }
 
     /// Doubts of the structure alone.
@@ -227,6 +224,12 @@ fn of_height(height_m: f64) -> Option<Doubt> {
 
 fn heavy_column(column_kg: f64, mass_kg: f64) -> Option<Doubt> {
     (column_kg > HEAVY_COLUMN * mass_kg).then_some(Doubt::HeavyColumn { column_kg, mass_kg })
+}
+
+/// Doubts of a structure, and those of its ground motion after them.
+fn with_motion(mut doubts: Vec<Doubt>, excitation: &Excitation) -> Vec<Doubt> {
+    doubts.extend(of_excitation(excitation));
+    doubts
 }
 
 /// Doubts of a ground motion, as it is used.

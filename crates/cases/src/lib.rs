@@ -2,14 +2,13 @@
 //! name.
 //!
 //! ```toml
-//! [structure]
-//! kind = "aframe"            # or "block"
-//! height_m = 61.0            # of the centre of mass above the feet; a block also total_height_m; also _ft, _in
-//! width_m = 12.2             # between the feet; also _ft, _in
-//! mass_kg = 680.1e3          # also mass_t, mass_lb, weight_kn, weight_kip, weight_lb
+//! [structure] kind = "aframe"            # or "block" height_m = 61.0            # of the centre
+//! of mass above the feet; a block also total_height_m; also _ft, _in width_m = 12.2             #
+//! between the feet; also _ft, _in mass_kg = 680.1e3          # also mass_t, mass_lb, weight_kn,
+//! weight_kip, weight_lb
 //!
-//! [damper]                   # also [tendon] stiffness_n_per_m, pretension_n; [friction] coefficient
-//! c_ns_per_m = 1e6
+//! [damper]                   # also [tendon] stiffness_n_per_m, pretension_n; [friction]
+//! coefficient c_ns_per_m = 1e6
 //!
 //! [record]                   # left out: El Centro 1940 NS
 //! file = "motion.at2"        # relative to the case file
@@ -82,10 +81,11 @@ pub enum Objective {
 pub struct Tuning {
     /// What the inner design follows from.
     pub objective: Objective,
-    /// Error of the history against Housner's that Omega_n is chosen for, NRMSE.
+    /// Error of the history against Housner's that Omega_n is chosen for, NRMSE; not used where
+    /// `peaks` is given.
     pub accuracy: f64,
-    /// Error of the peaks that Omega_n is chosen for instead; not with an accuracy in the same
-    /// place.
+    /// Relative error of the largest displacement, uplift and forces that Omega_n is chosen for in
+    /// place of `accuracy`. A case file gives one of the two.
     pub peaks: Option<f64>,
     /// Stiffest springs allowed, Omega_n/2 pi (Hz); none unless given.
     pub max_omega_hz: Option<f64>,
@@ -154,7 +154,9 @@ pub struct Case {
     pub duration_s: f64,
     /// The outer loop's settings.
     pub tuning: Tuning,
-    /// A program with fixed time steps that springs are asked for besides.
+    /// A program with fixed time steps that springs are asked for besides: they are the `program`
+    /// of what is tuned. There are none of a body with members, of another restitution than
+    /// equation 2's, and of a step or an integrator that cannot be. None: for SAP2000 at 1 ms.
     pub program: Option<FixedStepProgram>,
     /// The frequency response wanted by the paper's procedure.
     pub target: Target,
@@ -170,26 +172,45 @@ pub(crate) const PAPER: &str = include_str!("../../../tuning/paper.toml");
 
 impl Case {
     /// The paper's case: its A-frame on El Centro.
+    ///
+    /// # Errors
+    /// None: the case is part of the program, and a test reads it.
     pub fn paper() -> Result<Self, CaseError> {
         Self::parse("tuning/paper.toml", PAPER)
     }
 
     /// Read a case file and the record it names.
+    ///
+    /// # Errors
+    /// A file that cannot be read or is no case: a ground motion, JSON; as [`Self::parse`].
     pub fn read(path: &Path) -> Result<Self, CaseError> {
         Self::read_asking(path, &ReadOptions::default())
     }
 
-    /// The same; what is asked of the record goes before what the case says of it.
+    /// Read a case file and the record it names; what is asked of the record here goes before what
+    /// the case says of it.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
     pub fn read_asking(path: &Path, asked: &ReadOptions) -> Result<Self, CaseError> {
         Self::parse_asking(&path.display().to_string(), &text_of(path)?, asked)
     }
 
-    /// Parse a case file's text; `path` names it in messages and is where its record's path starts.
+    /// Parse a case file's text and read the record it names; `path` names the case in messages and
+    /// is where its record's path starts.
+    ///
+    /// # Errors
+    /// No TOML, a key missing or not known, a number that cannot be; an elastic structure; a record
+    /// that cannot be read, as [`Record::read`]; a peak above 50 g.
     pub fn parse(path: &str, text: &str) -> Result<Self, CaseError> {
         Self::parse_asking(path, text, &ReadOptions::default())
     }
 
-    /// The same; what is asked of the record goes before what the case says of it.
+    /// Parse a case file's text and read the record it names; what is asked of the record here goes
+    /// before what the case says of it.
+    ///
+    /// # Errors
+    /// As [`Self::parse`].
     pub fn parse_asking(path: &str, text: &str, asked: &ReadOptions) -> Result<Self, CaseError> {
         let mut notices = Vec::new();
         let case = parse_with(path, text, asked, |file, options| {
@@ -287,6 +308,7 @@ fn of_text(
 
 impl Tuning {
     /// What Omega_n is chosen for.
+    #[doc(hidden)]
     pub fn asked(&self) -> Asked {
         Asked::new(self.accuracy, self.peaks)
     }

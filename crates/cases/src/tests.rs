@@ -122,3 +122,13 @@ fn a_scale_that_is_no_number_is_blamed_not_the_record() {
         assert!(refused.contains("give a finite number"), "{refused}");
     }
 }
+
+/// Housner's e of an A-frame is cos(2 alpha): tan(alpha) = 1/2 gives 3/5.
+#[test]
+fn an_assumption_can_be_printed() {
+    let text = "[structure]\nkind = 'aframe'\nheight_m = 2.0\nwidth_m = 2.0\nmass_kg = 1e3\n";
+    let all = Case::parse("c.toml", text).unwrap().assumptions();
+    let told: Vec<String> = all.iter().map(ToString::to_string).collect();
+    let expected = "Housner's restitution (equation 2) = 0.6 (structure.restitution)";
+    assert!(told.iter().any(|told| told == expected), "{told:?}");
+}

@@ -16,6 +16,7 @@
 mod beside;
 mod corner_program;
 mod elastic;
+mod error;
 mod expectation;
 mod language;
 mod model;
@@ -28,11 +29,10 @@ mod stepped_model;
 mod stepping;
 pub mod verify;
 
-use thiserror::Error;
-
 pub use corner_program::{CornerHistory, CornerProgram};
 use dynamics::fem::History;
 pub use elastic::ElasticDeck;
+pub use error::ExportError;
 pub use expectation::{DeckExpectation, foretold_rigid};
 use files::message::significant;
 use fixed_steps::MemberDamping;
@@ -62,11 +62,11 @@ pub enum DeckFormat {
     OpenSeesTcl,
     /// SAP2000 text tables.
     Sap2000,
-    /// The same model to type from.
+    /// The model of the SAP2000 text tables as a sheet, to type into SAP2000 or ETABS.
     Sap2000Sheet,
     /// k1, k2, m2, c as CSV.
     Csv,
-    /// The same as Markdown.
+    /// k1, k2, m2, c as a Markdown table.
     Markdown,
 }
 
@@ -82,6 +82,7 @@ impl DeckFormat {
     ];
 
     /// Whether it is for SAP2000.
+    #[doc(hidden)]
     pub fn is_sap2000(self) -> bool {
         matches!(self, Self::Sap2000 | Self::Sap2000Sheet)
     }
@@ -213,75 +214,15 @@ impl Expected {
     }
 }
 
-/// What is wrong with an export, and what to do.
-#[derive(Debug, Error)]
-#[allow(missing_docs)] // messages say what variants and their fields are
-pub enum ExportError {
-    #[error("export: format '{name}' is not known; give one of {known} (the sheet is ETABS' too)")]
-    DeckFormat { name: String, known: String },
-    #[error(
-        "export: {name} is {value}; give a finite number above zero (dampers and inertia may be \
-            zero), as `tune run` writes them"
-    )]
-    Number { name: &'static str, value: f64 },
-    #[error(
-        "export: {name} is not written for {format}; leave it out, or take another --format \
-            (SAP2000 tables have no damper, tendon and friction)"
-    )]
-    Member { name: &'static str, format: &'static str },
-    #[error("export: --stepping {name} is not known; give events, even or touches")]
-    Stepping { name: String },
-    #[error(
-        "export: these parameters have no springs for steps of one size; give tune run a program: \
-            --for sap2000, etabs or opensees-even, and --step"
-    )]
-    NoProgram,
-    #[error(
-        "export: springs for steps of one size have the restitution of equation 2, {due:.4}, and \
-            this run has {asked}; leave restitution out, or give --stepping events"
-    )]
-    ProgramRestitution { asked: f64, due: f64 },
-    #[error(
-        "export: the springs of this run are for steps of {}, not for SAP2000; give tune run \
-            --for sap2000 and --step",
-        printable(integrator)
-    )]
-    AnotherProgram { integrator: String },
-    #[error(
-        "export: SAP2000 and ETABS take no steps that follow touches; give --stepping even, and \
-            tune run --for sap2000 and --step"
-    )]
-    EventsInTables,
-    #[error(
-        "export: the springs for steps of one size are not made for a {name}; leave it out, or \
-            --stepping events"
-    )]
-    MemberOfSteps { name: &'static str },
-    #[error(
-        "export: tables have no loop for substeps at touches; give --stepping even, or --format \
-            openseespy"
-    )]
-    TouchesInTables,
-    #[error(
-        "export: integrator {name} is not written for {program}; give tune run another \
-            --integrator: hht:-0.333 or newmark, in OpenSees also trbdf2 or backward-euler"
-    )]
-    Integrator { name: String, program: &'static str },
-    #[error("export: {message}")]
-    Steps { message: String },
-    #[error(
-        "export: the history to check against has {expected} samples but the record has {record}; \
-            use the record that was simulated"
-    )]
-    Samples { expected: usize, record: usize },
-}
-
 /// The text of a deck of these springs on a record, with our own history to check itself against. A
 /// body without rotational inertia gets the least that other programs need (1e-5 m R^2).
 ///
+/// Its steps follow touches, on the springs `vertical` and `horizontal`. A deck for steps of one
+/// size, as SAP2000 and ETABS take them, is [`stepped_deck`].
+///
 /// # Errors
-/// A member or a vertical motion that the format does not have; numbers that are not finite;
-/// SAP2000's formats, which are for steps of one size: [`stepped_deck`].
+/// A member that the format does not have; numbers that are not finite; the two formats of SAP2000,
+/// always: [`ExportError::EventsInTables`].
 pub fn deck(
     parameters: &Parameters,
     record: &Record,

@@ -28,15 +28,15 @@ use crate::{
     model::{ACCURACY, DeckModel, with_inertia},
 };
 
-/// How a deck steps.
+/// How the program that a deck is for steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Stepping {
     /// Shortened towards touches and lifts, whatever the springs.
     #[default]
     Events,
-    /// All alike, on the springs for such a program.
+    /// All alike, on the springs for such a program, those of `Parameters::program`.
     Even,
-    /// Alike but for substeps at touches, on springs for these.
+    /// Alike but for substeps at touches, on springs for these, in decks for OpenSees.
     Touches,
 }
 
@@ -326,6 +326,7 @@ pub struct SteppedDeck {
 
 impl SteppedDeck {
     /// The text, and a line for the user if the deck ends before the record.
+    #[doc(hidden)]
     pub fn told(self, name: &str) -> (String, Option<String>) {
         let line = self.gives_up_s.map(|time| {
             let then = match self.until.filter(|until| *until <= time) {
@@ -343,8 +344,9 @@ pub fn samples_to(until: Option<f64>, dt: f64, all: usize) -> usize {
     samples_until(until, dt).max(2).min(all)
 }
 
-/// The deck for a program with steps of one size. It compares its history up to when the motion can
-/// be predicted, `until` (s); all of it if there is no such time.
+/// The deck for a program with steps of one size, or of any other [`Stepping`]. It compares its
+/// history up to when the motion can be predicted, `until` (s), as `Conditioning::predictable_to`
+/// gives it; all of it if there is no such time.
 ///
 /// # Errors
 /// Parameters without springs for such a program; members; an integrator that the program has not;

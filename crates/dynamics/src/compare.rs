@@ -19,39 +19,41 @@ use rocking::{
 pub struct Match {
     /// Length compared (s).
     pub duration_s: f64,
-    /// When each body overturned, that is |theta| last grew past alpha (s).
+    /// When Housner's body overturned, that is |theta| last grew past alpha (s); none if it did
+    /// not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub overturned_housner_s: Option<f64>,
-    /// The same of the finite elements (s).
+    /// When the finite element body overturned, by the same rule (s); none if it did not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub overturned_fem_s: Option<f64>,
-    /// sqrt( sum (u - u_H)^2 / sum u_H^2 ).
+    /// NRMSE of the horizontal displacement: sqrt( sum (u - u_H)^2 / sum u_H^2 ), u_H Housner's.
     #[serde(deserialize_with = "null_as_infinite")]
     pub nrmse_horizontal: f64,
-    /// The same for v, from the settled position.
+    /// NRMSE of the vertical displacement v, from the settled position.
     #[serde(deserialize_with = "null_as_infinite")]
     pub nrmse_vertical: f64,
-    /// Largest |u| with its sign (m).
+    /// Housner's horizontal displacement u of largest magnitude, with its sign (m).
     pub peak_horizontal_housner_m: f64,
-    /// The same of the finite elements (m).
+    /// Horizontal displacement u of largest magnitude of the finite elements, with its sign (m).
     pub peak_horizontal_fem_m: f64,
-    /// Largest |v| with its sign (m).
+    /// Housner's vertical displacement v of largest magnitude, with its sign, up is positive (m).
     pub peak_vertical_housner_m: f64,
-    /// The same of the finite elements (m).
+    /// Vertical displacement v of largest magnitude of the finite elements, from the settled
+    /// position, with its sign (m).
     pub peak_vertical_fem_m: f64,
-    /// Housner's impacts.
+    /// Housner's impacts, those of all of his history.
     pub impacts_housner: usize,
-    /// Landings, re-landings of a bounce not counted.
+    /// Impacts of the finite elements ([`Landing::impact`]) over the length compared.
     pub impacts_fem: usize,
     /// Housner's impacts harder than a fall from 0.02 alpha: what both models count alike, for a
     /// body that comes to rest has ever more, ever gentler ones by his theory, and sways on its
     /// springs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub impacts_housner_firm: Option<usize>,
-    /// The same of the finite elements.
+    /// Impacts of the finite elements that are harder than a fall from 0.02 alpha.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub impacts_fem_firm: Option<usize>,
-    /// Landing feet that opened again within 0.25 s, the body not having reversed.
+    /// Bounces of the finite elements ([`Landing::bounced`]) over the length compared.
     pub bounces: usize,
     /// Settlement of the standing body under its weight (m).
     pub settlement_m: f64,
@@ -59,8 +61,9 @@ pub struct Match {
     /// energy; the last is left out, for its losses may not be complete.
     #[serde(deserialize_with = "null_as_infinite")]
     pub restitution_error_max: f64,
-    /// The same over impacts above the energy threshold, a fall from 0.02 alpha, for which springs
-    /// are tuned: gentler ones are partly taken by the elastic stance. None if there are none.
+    /// Largest |e_effective/e - 1| over the impacts above the energy threshold, a fall from 0.02
+    /// alpha, for which springs are tuned: gentler ones are partly taken by the elastic stance. The
+    /// last is left out. None if there are none.
     #[serde(default)]
     pub restitution_error_firm: Option<f64>,
     /// Largest |residual| of the energy account over the largest energy.
@@ -68,7 +71,9 @@ pub struct Match {
 }
 
 impl Match {
-    /// Compare a history with Housner's motion, both sampled at dt, and his impacts.
+    /// Compare a history with Housner's motion, both sampled at dt, and his impacts. Public for the
+    /// crates that compare.
+    #[doc(hidden)]
     pub fn new(
         body: &Body<f64>,
         dt: f64,
@@ -165,6 +170,7 @@ mod tests {
     };
     use rocking::{
         housner::{history, released, solve},
+        scalar::GRAVITY,
         structure::Structure,
     };
 
@@ -174,7 +180,7 @@ mod tests {
         let design = Design::from_kc(0.3, 0.1, 0.75, 400.0);
         let springs = Springs { vertical: design, horizontal: design }.chains(body.mass);
         let dt = 0.01;
-        let accel = vec![share_of_limit * 9.81 * body.half_width / body.height; 1000];
+        let accel = vec![share_of_limit * GRAVITY * body.half_width / body.height; 1000];
         let rocking = history(&body, dt, &accel);
         let history = Analysis::new(body, springs, dt, &accel).simulate();
         let housner = (&rocking.motion(&body), &rocking.impacts[..]);

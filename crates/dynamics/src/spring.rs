@@ -149,7 +149,8 @@ impl ChainRow {
         }
     }
 
-    /// The chain with units; k1, k2, m2 and c rule, the dimensionless columns are for reading.
+    /// The chain with units, from k1, k2, m2 and c; mu, f, xi and Omega_n are there to read and
+    /// change nothing.
     pub fn chain(&self) -> Chain {
         Chain { k1: self.k1_n_per_m, k2: self.k2_n_per_m, m2: self.m2_kg, c: self.c_ns_per_m }
     }

@@ -108,10 +108,12 @@ impl StepFormula {
 
 impl Integrator {
     /// The trapezoidal rule, Newmark's (1/2, 1/4): "average acceleration".
+    #[doc(hidden)]
     pub const AVERAGE_ACCELERATION: Self = Self::Newmark { gamma: 0.5, beta: 0.25 };
     /// HHT with the most damping.
     pub const HHT_MOST: Self = Self::Hht { alpha: -1.0 / 3.0 };
     /// Generalized alpha that ends infinitely stiff modes within a step.
+    #[doc(hidden)]
     pub const GENERALIZED_ALPHA_0: Self = Self::GeneralizedAlpha { rho_inf: 0.0 };
 
     /// The integrator itself if it is stable at any step.
@@ -167,6 +169,7 @@ impl Integrator {
     ///   Newmark (1/2, 1/4): 1      Newmark: eigenvalues of [[1 - 1/(2 beta), -1/beta], [1 - gamma/(2 beta), 1 - gamma/beta]]
     ///   HHT: the same of (1 + alpha) weighted, -alpha/(1 + alpha) among them      generalized alpha: rho_inf      BDF2: 0
     /// ```
+    #[doc(hidden)]
     pub fn stiff_radius(&self) -> f64 {
         match self.formula(1) {
             StepFormula::Bdf2 => 0.0,
@@ -180,6 +183,7 @@ impl Integrator {
     }
 
     /// Whether motions of infinite stiffness end within a few steps: L-stable.
+    #[doc(hidden)]
     pub fn ends_stiff_modes(&self) -> bool {
         self.stiff_radius() == 0.0
     }

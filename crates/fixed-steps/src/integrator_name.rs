@@ -53,6 +53,7 @@ impl fmt::Display for Integrator {
 
 impl Integrator {
     /// In words: "HHT alpha -1/3".
+    #[doc(hidden)]
     pub fn words(&self) -> String {
         match self {
             Self::Hht { alpha } if (alpha + 1.0 / 3.0).abs() < 1e-9 => "HHT alpha -1/3".into(),

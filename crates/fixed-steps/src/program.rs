@@ -51,6 +51,7 @@ impl ProgramName {
     pub const ALL: [Self; 3] = [Self::Sap2000, Self::Etabs, Self::OpenSees];
 
     /// As users name it.
+    #[doc(hidden)]
     pub fn key(self) -> &'static str {
         match self {
             Self::Sap2000 => "sap2000",
@@ -84,6 +85,7 @@ impl ProgramName {
     }
 
     /// Those integrators, as users give them.
+    #[doc(hidden)]
     pub fn integrators(self) -> &'static str {
         match self {
             Self::Sap2000 | Self::Etabs => "hht:ALPHA from -1/3 to 0, or newmark:GAMMA:BETA",
@@ -144,7 +146,7 @@ impl From<ProgramName> for String {
     }
 }
 
-/// A program with fixed time steps.
+/// A program with fixed time steps, which springs are asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FixedStepProgram {
     /// Which, if it is one of those that are known.
@@ -172,7 +174,8 @@ const DROPPED: f64 = std::f64::consts::SQRT_2;
 const CSI_NEWTON: usize = 40;
 
 impl FixedStepProgram {
-    /// A program that is known, at this step (s).
+    /// A program that is known, at this step (s): a case file takes one from 1e-6 to 0.1 s. Every
+    /// other field is as the program is to be set.
     pub fn of(name: ProgramName, step: f64) -> Self {
         let (integrator, substeps) = (name.integrator(), SUBSTEPS);
         Self { name: Some(name), integrator, step, step_is_given: true, substeps }
@@ -190,6 +193,7 @@ impl FixedStepProgram {
 
     /// How it steps a structure that this horizontal force lifts (N): to a change of place of g
     /// dt^2/10, or to an unbalance (`DROPPED`).
+    #[doc(hidden)]
     pub fn settings(&self, lifting: f64) -> StepSettings {
         let iteration = if self.tests_unbalance() {
             let test = ConvergenceTest::Unbalance(DROPPED * lifting);

@@ -25,7 +25,32 @@
 //! | find springs | [`tune`]: [`Parameters`], which are `parameters.json` |
 //! | rock the finite elements on them | [`simulate`]: [`History`] |
 //! | see whether they follow Housner | [`compare`] on one record: [`Match`], [`Verdict`]; [`validate`] on many: [`Validation`] |
+//! | have springs for a program with fixed time steps | [`FixedStepProgram`] of a [`Case`]; [`tune`]: [`ProgramRow`]; [`stepped_deck`] |
 //! | use them elsewhere | [`deck`]; [`Chain`] has k1, k2, m2, c, [`Design`] mu, f, xi, Omega_n; [`Response`] is their frequency response |
+//!
+//! Springs for a program that steps with one size, its deck, and what it errs:
+//!
+//! ```
+//! use groundspring::{
+//!     Case, DeckFormat, FixedStepProgram, ProgramName, Record, Stepping, Structure, stepped_deck,
+//!     tune,
+//! };
+//!
+//! let case = Case {
+//!     program: Some(FixedStepProgram::of(ProgramName::Sap2000, 1e-3)),
+//!     ..Case::of(Structure::block(2.0, 0.5, 1e3)?, Record::el_centro())?
+//! };
+//! let springs = tune(&case)?;
+//! let row = springs.program.as_ref().ok_or("no springs for steps of one size")?;
+//! println!("k1 = {:.3e} N/m, steps of {} s", row.units.vertical.k1_n_per_m, row.step_s);
+//! if let Some(fault) = row.not_to_be_used() {
+//!     println!("{fault}");
+//! }
+//! let deck = stepped_deck(&springs, &case.record, DeckFormat::Sap2000, Stepping::Even, None)?;
+//! # assert!(row.units.vertical.k1_n_per_m < springs.vertical.k1_n_per_m);
+//! # assert!(deck.text.contains("LINK PROPERTY DEFINITIONS"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 //!
 //! Symbols are those of Ma, Butterworth & Davidson, "Modelling rocking structures using standard
 //! finite elements", NZSEE Conference 2005; numbers in brackets, as (7), are its equations. Units
@@ -37,7 +62,7 @@
 #[doc(inline)]
 pub use cases::{Case, CaseError, Objective, Tuning};
 #[doc(inline)]
-pub use decks::{DeckFormat, ExportError, deck};
+pub use decks::{DeckFormat, ExportError, SteppedDeck, Stepping, deck, stepped_deck};
 #[doc(inline)]
 pub use dynamics::compare::Match;
 #[doc(inline)]
@@ -47,6 +72,8 @@ pub use dynamics::fem::{
 #[doc(inline)]
 pub use dynamics::spring::{Chain, ChainRow, Design, Springs};
 #[doc(inline)]
+pub use fixed_steps::{FixedStepProgram, Integrator, ProgramName};
+#[doc(inline)]
 pub use frequency_response::Response;
 #[doc(inline)]
 pub use frequency_response::inner::FitError;
@@ -55,13 +82,26 @@ pub use parameters::answers::{MemberHistory, ModelComparison, compare, validate}
 #[doc(inline)]
 pub use parameters::predictability::simulate;
 #[doc(inline)]
+pub use parameters::program::{FootUnits, ProgramRow};
+#[doc(inline)]
 pub use parameters::{Parameters, ParametersError, RememberedError};
 #[doc(inline)]
 pub use rocking::conditioning::{Changes, Conditioning, Sensitivity};
+/// ```
+/// use groundspring::{RockingOptions, Structure, rock};
+/// let body = Structure::a_frame(61.0, 12.2, 680.1e3)?.body::<f64>();
+/// // 0.5 s at 2 m/s2, above g tan(alpha) = 0.981 m/s2: it lifts, to the left
+/// let accel: Vec<f64> = (0..1000).map(|i| if i < 50 { 2.0 } else { 0.0 }).collect();
+/// let rocking = rock(&body, 0.01, &accel, &RockingOptions::default());
+/// assert_eq!(rocking.uplifts[0].side, -1.0);
+/// assert!(!rocking.impacts.is_empty());
+/// # Ok::<(), groundspring::StructureError>(())
+/// ```
+#[doc(inline)]
+pub use rocking::housner::solve as rock;
 #[doc(inline)]
 pub use rocking::housner::{
-    Impact, Rocking, RockingOptions, RockingOutcome, Uplift, solve as rock,
-    solve_lanes as rock_many,
+    Impact, Rocking, RockingOptions, RockingOutcome, Uplift, solve_lanes as rock_many,
 };
 #[doc(inline)]
 pub use rocking::members::{Damper, Friction, Members, MembersError, Tendon};
@@ -91,8 +131,12 @@ pub use validation::{
 /// Tune the springs of a case: what `tune run` does, without its histories.
 ///
 /// # Errors
-/// No springs that settle as little as asked for; for the paper's procedure, a record that does not
-/// lift the structure.
+/// - `TooShort`: the part of the record that is used has less than two samples.
+/// - `OutOfReach`: it has more steps than a history may take.
+/// - `Settlement`: no springs up to the stiffest allowed settle as little as asked for.
+/// - `NoCandidate`: no springs follow the record to its end.
+/// - `Fit`: the target, the bounds or a mass ratio of the paper's procedure cannot be.
+/// - `NeverLifts`: the record does not lift the structure, and [`Objective::Arr`] tunes on it.
 pub fn tune(case: &Case) -> Result<Parameters, JobError> {
     Ok(Parameters::of(case, &springs::job::Job::new(case, &|_, _, _| ())?))
 }

@@ -21,19 +21,19 @@ use validation::{JudgedModel, Validation, Validator, verdict::Verdict};
 
 /// Both models' answers to one record.
 pub struct ModelComparison {
-    /// Housner's history.
+    /// Housner's history; its `outcome` says how it ended.
     pub rocking: Rocking<f64>,
     /// Housner's history without the vertical component, if the record has one.
     pub level: Option<Rocking<f64>>,
-    /// Its motion of the centre of mass.
+    /// Motion of the centre of mass in Housner's history.
     pub housner: Motion,
-    /// The finite element history of the rigid body.
+    /// The finite element history of the rigid body; its `outcome` says how it ended.
     pub fem: fem::History,
     /// How it matches Housner's.
     pub matched: Match,
     /// Forces in the rigid body's history.
     pub demands: fem::Demands,
-    /// The same with members, if there are any.
+    /// The finite element history with members, if there are any.
     pub with: Option<MemberHistory>,
 }
 
@@ -80,6 +80,10 @@ pub fn with_members(
 
 /// Both models on the springs and members of a parameter file, and what they say together: peaks,
 /// overturning, match.
+///
+/// It never fails: of a history that met its bound on work, found no balance or has numbers that
+/// are not finite, the [`Verdict`] has `Fate::Failed`, and its `outcome` says why and when. The
+/// match is then over the samples that both histories have.
 pub fn compare(parameters: &Parameters, record: &Record) -> (ModelComparison, Verdict) {
     let (body, e) = (parameters.structure.body(), parameters.restitution());
     let both = both(&body, e, &parameters.chains(), &parameters.members(), record);
@@ -93,6 +97,10 @@ pub fn compare(parameters: &Parameters, record: &Record) -> (ModelComparison, Ve
 }
 
 /// The springs of a parameter file over many records, each as long as it is, on all cores.
+///
+/// Members and vertical components are left out. It never fails: a record in which a history did
+/// has a row with `RecordOutcome::HousnerFailed` or `FemFailed` and no errors, and its name in
+/// `failed`; it counts as a disagreement on overturning and as an infinite error in the quantiles.
 pub fn validate(parameters: &Parameters, records: &[Record]) -> Validation {
     let judge = Validator {
         body: parameters.structure.body(),
@@ -115,6 +123,7 @@ impl ModelComparison {
     }
 
     /// What the histories say together; `dt` in s.
+    #[doc(hidden)]
     pub fn verdict(&self, body: &Body<f64>, dt: f64, conditioning: &Conditioning) -> Verdict {
         let verdict =
             Verdict::new(body, dt, (&self.rocking, &self.fem), &self.matched, conditioning);

@@ -107,7 +107,8 @@ pub struct Parameters {
     pub vertical: ChainRow,
     /// The horizontal unit at each foot.
     pub horizontal: ChainRow,
-    /// Springs for a program with fixed time steps, in place of those above.
+    /// Springs for a program with fixed time steps, which are to stand in that program in place of
+    /// those above.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub program: Option<ProgramRow<FootUnits>>,
     /// Dampers between feet and ground; the springs are tuned without them.
@@ -193,7 +194,8 @@ impl Parameters {
     }
 
     /// What there is to keep of a tuned case whatever the record: the springs, their landings,
-    /// their accuracy.
+    /// their accuracy. Public for the crates that tune.
+    #[doc(hidden)]
     pub fn of(case: &Case, job: &Job) -> Self {
         let mut parameters = Self::new(case.structure, &job.springs).with_members(case.members);
         parameters.restitution = Some(case.restitution).filter(|e| *e != job.body.restitution());
@@ -205,7 +207,8 @@ impl Parameters {
         parameters
     }
 
-    /// The springs with units; k1, k2, m2 and c of the file rule.
+    /// The springs with units, from the file's k1, k2, m2 and c; its mu, f, xi and Omega_n are
+    /// there to read and change nothing. Those of `program` are not among them.
     pub fn chains(&self) -> Springs<Chain> {
         Springs { vertical: self.vertical.chain(), horizontal: self.horizontal.chain() }
     }
@@ -215,7 +218,7 @@ impl Parameters {
         Members { damper: self.damper, tendon: self.tendon, friction: self.friction }
     }
 
-    /// The same with these members.
+    /// These parameters with these members in place of their own.
     pub fn with_members(self, members: Members) -> Self {
         let Members { damper, tendon, friction } = members;
         Self { damper, tendon, friction, ..self }
@@ -226,7 +229,10 @@ impl Parameters {
         self.restitution.unwrap_or_else(|| self.structure.body::<f64>().restitution())
     }
 
-    /// Read and check a file.
+    /// Read and check a parameters.json.
+    ///
+    /// # Errors
+    /// A file that cannot be read; as [`Self::parse`].
     pub fn read(path: &Path) -> Result<Self, ParametersError> {
         let name = path.display().to_string();
         let text = files::input::text(path)
@@ -237,7 +243,8 @@ impl Parameters {
     /// Parse and check a file's text; `path` names it in messages.
     ///
     /// # Errors
-    /// No JSON, a key missing or not known, a number that cannot be.
+    /// No JSON, a key missing or not known, a number that cannot be, a newer schema, springs of an
+    /// elastic structure.
     pub fn parse(path: &str, text: &str) -> Result<Self, ParametersError> {
         // a newer file may have keys that this program does not know
         if let Ok(Version { schema }) = serde_json::from_str(text)

@@ -113,7 +113,7 @@ pub struct ProgramRow<U> {
     pub asked: bool,
     /// Its step (s).
     pub step_s: f64,
-    /// Its integrator, as `--integrator` takes it.
+    /// Its integrator; in files as "hht:-0.333", "newmark:0.5:0.25", "trbdf2", "backward-euler".
     pub integrator: Integrator,
     /// A step that fails is halved, down to one in so many.
     pub substeps: usize,
@@ -192,6 +192,7 @@ impl From<&ProgramSprings> for ProgramRow<FootUnits> {
 
 impl ProgramRow<CornerUnits> {
     /// Of an elastic structure whose corners stand at these places (m).
+    #[doc(hidden)]
     pub fn of_corners(
         of: &ElasticProgramSprings,
         mass: f64,
@@ -257,27 +258,31 @@ impl<U> ProgramRow<U> {
     }
 
     /// Whether it is SAP2000 or ETABS.
+    #[doc(hidden)]
     pub fn is_csi(&self) -> bool {
         matches!(self.name, Some(ProgramName::Sap2000 | ProgramName::Etabs))
     }
 
     /// Whether it is ETABS, which reads no tables of SAP2000's.
+    #[doc(hidden)]
     pub fn is_etabs(&self) -> bool {
         self.name == Some(ProgramName::Etabs)
     }
 
     /// Whether its springs come in decks for OpenSees: of OpenSees itself, and of a program that
     /// is known by its integrator alone, if OpenSees has that.
+    #[doc(hidden)]
     pub fn in_opensees(&self) -> bool {
         !self.is_csi() && ProgramName::OpenSees.has(self.integrator)
     }
 
     /// Whether its springs come in SAP2000's tables.
+    #[doc(hidden)]
     pub fn in_sap2000(&self) -> bool {
         self.name == Some(ProgramName::Sap2000)
     }
 
-    /// Whether the springs are of no use, why, and what to do.
+    /// Whether the springs are of no use, why, and what to do, which can be printed.
     pub fn not_to_be_used(&self) -> Option<NotToBeUsed> {
         let fault = self.fault()?;
         Some(NotToBeUsed { fault, advice: self.advice(fault) })
@@ -313,6 +318,7 @@ impl<U> ProgramRow<U> {
     }
 
     /// What springs that are of use err on earthquake-like motions, if that is much.
+    #[doc(hidden)]
     pub fn errs_on_earthquakes(&self) -> Option<ProgramErrors> {
         let errors = self.expected.earthquakes.filter(|_| self.not_to_be_used().is_none())?;
         errors.peak[0].is_none_or(|median| median > USELESS).then_some(errors)
@@ -357,7 +363,7 @@ impl CornerUnits {
 }
 
 impl FootUnits {
-    /// The structure as a model for the program must have it.
+    /// The structure as a model for the program must have it: with that rotational inertia.
     pub fn structure(&self, structure: &Structure) -> Structure {
         Structure { rotational_inertia_kgm2: self.rotational_inertia_kgm2, ..*structure }
     }

@@ -70,8 +70,8 @@ pub struct Changes {
 
 impl Changes {
     /// Whether all is as the derivatives of a well-conditioned history promise: changes of width
-    /// and scale move it by less than [`ILL_CONDITIONED`] times as much, 0.1 % of the restitution
-    /// by less than `MOVED_BY_RESTITUTION`, and nothing decides on overturning.
+    /// and scale move it by less than 10 times as much, 0.1 % of the restitution moves it by less
+    /// than 0.1, and nothing decides on overturning.
     pub fn proportionate(&self) -> bool {
         let within = |moved: [f64; 2]| {
             moved.iter().zip(CHANGES).all(|(moved, change)| *moved < ILL_CONDITIONED * change)
@@ -93,7 +93,8 @@ pub struct Conditioning {
 }
 
 impl Conditioning {
-    /// Of Housner's history: record and options as in [`solve`].
+    /// Of Housner's history of a body: ground accelerations (m/s2) at t = 0, dt, 2 dt ... (s), and
+    /// the options that the history has. It rocks the body fourteen times.
     pub fn new(body: &Body<f64>, dt: f64, accel: &[f64], options: &RockingOptions<f64>) -> Self {
         Self {
             sensitivity: sensitivity(body, dt, accel, options),
@@ -101,8 +102,8 @@ impl Conditioning {
         }
     }
 
-    /// Whether a comparison of histories one to one means something: by the derivative and by
-    /// finite changes.
+    /// Whether a comparison of histories one to one means something: both sensitivities are below
+    /// 10, and [`Changes::proportionate`].
     pub fn well_conditioned(&self) -> bool {
         self.sensitivity.worst() < ILL_CONDITIONED && self.changes.proportionate()
     }

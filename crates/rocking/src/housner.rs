@@ -116,7 +116,7 @@ pub enum RockingOutcome {
         /// (s)
         time: f64,
     },
-    /// More steps and impacts than `Options::max_work`; the history is cut there.
+    /// More steps and impacts than [`RockingOptions::max_work`]; the history is cut there.
     WorkBound {
         /// (s)
         time: f64,
@@ -144,17 +144,7 @@ pub struct Rocking<S> {
 }
 
 /// Rock a body on a record: ground accelerations (m/s2) at t = 0, dt, 2 dt ... (s), linear between
-/// them.
-///
-/// ```
-/// use rocking::{housner, structure::Structure};
-/// let body = Structure::paper().body::<f64>();
-/// // 0.5 s at 2 m/s2, just above g tan(alpha) = 0.981 m/s2
-/// let accel: Vec<f64> = (0..1000).map(|i| if i < 50 { 2.0 } else { 0.0 }).collect();
-/// let rocking = housner::solve(&body, 0.01, &accel, &housner::RockingOptions::default());
-/// assert_eq!(rocking.uplifts[0].side, -1.0);
-/// assert!(!rocking.impacts.is_empty());
-/// ```
+/// them. It never fails: what went wrong is the history's [`RockingOutcome`].
 pub fn solve(
     body: &Body<f64>,
     dt: f64,
@@ -191,9 +181,10 @@ pub fn solve_with_derivatives<S: Scalar>(
 }
 
 /// Rock many bodies on one record, or one body on many scales of it, sixteen at a time in
-/// lock-step, on every thread; each result is, bit for bit, that of [`solve`]. The longer of the
-/// two lists decides how many there are; the shorter one is repeated from its start. Options with
-/// the same vertical record (clones of one `Arc`) go side by side.
+/// lock-step, on every thread; each result is, bit for bit, that of the body rocked alone. The
+/// longer of the two lists decides how many there are; the shorter one is repeated from its start.
+/// Without bodies, or without options, there are no histories. Options with the same vertical
+/// record (clones of one `Arc`) go side by side.
 pub fn solve_lanes(
     bodies: &[Body<f64>],
     dt: f64,

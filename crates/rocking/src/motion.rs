@@ -26,7 +26,8 @@ impl Motion {
         self.u.is_empty()
     }
 
-    /// A motion with room for n samples.
+    /// A motion with room for n samples. Public for the crates that make motions.
+    #[doc(hidden)]
     pub fn with_capacity(n: usize) -> Self {
         Self { u: Vec::with_capacity(n), v: Vec::with_capacity(n), theta: Vec::with_capacity(n) }
     }
@@ -37,7 +38,8 @@ impl Motion {
         Self { u: of(&self.u), v: of(&self.v), theta: of(&self.theta) }
     }
 
-    /// Append one sample.
+    /// Append one sample: u, v (m) and theta (rad). Public for the crates that make motions.
+    #[doc(hidden)]
     pub fn push(&mut self, u: f64, v: f64, theta: f64) {
         self.u.push(u);
         self.v.push(v);

@@ -73,7 +73,11 @@ pub enum StructureError {
 }
 
 impl Structure {
-    /// A checked A-frame with its mass at the apex.
+    /// A checked A-frame with its mass (kg) at the apex, `height_m` above its feet, which stand
+    /// `width_m` apart. It has no rotational inertia.
+    ///
+    /// # Errors
+    /// As [`Self::checked`].
     pub fn a_frame(height_m: f64, width_m: f64, mass_kg: f64) -> Result<Self, StructureError> {
         Self { kind: Kind::AFrame, height_m, width_m, mass_kg, rotational_inertia_kgm2: 0.0 }
             .checked()
@@ -81,6 +85,9 @@ impl Structure {
 
     /// A checked solid block, `height_m` its whole height H (so h = H/2), `width_m` its whole
     /// width.
+    ///
+    /// # Errors
+    /// As [`Self::checked`].
     pub fn block(height_m: f64, width_m: f64, mass_kg: f64) -> Result<Self, StructureError> {
         Self {
             kind: Kind::Block,
@@ -104,6 +111,11 @@ impl Structure {
     }
 
     /// The structure itself if its numbers can rock.
+    ///
+    /// # Errors
+    /// A height, width or mass that is not above zero, or is beyond any structure's; an inertia
+    /// below zero, or above what a block can have; a slenderness alpha that is not within 0.005 to
+    /// 0.9 rad; a restitution by equation 2 that is not between 0 and 1.
     pub fn checked(self) -> Result<Self, StructureError> {
         for (name, value, (least, most)) in [
             ("height_m", self.height_m, LENGTH_M),

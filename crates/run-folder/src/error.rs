@@ -11,7 +11,7 @@ pub enum FolderError {
     #[error(transparent)]
     Figure(#[from] FigureError),
     /// A deck that cannot be made.
-    #[error(transparent)]
+    #[error("{}", .0.with_options())]
     Deck(#[from] ExportError),
     /// A file that cannot be written.
     #[error("{path}: cannot be written ({source}); check the folder and its rights")]

@@ -99,7 +99,7 @@ fn gathered(
                 "{name} is left out, for such tables hold no {member}: take a deck for OpenSees"
             )),
             Err(e @ ExportError::Integrator { .. }) => {
-                texts.left_out.push(format!("{name} is left out: {e}"));
+                texts.left_out.push(format!("{name} is left out: {}", e.with_options()));
             }
             deck => {
                 let (text, line) = deck?;

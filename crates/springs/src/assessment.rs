@@ -62,7 +62,9 @@ pub struct Assessment {
 }
 
 impl Assessment {
-    /// Of a job's springs, tuned so for a body with this restitution.
+    /// Of a job's springs, tuned so for a body with this restitution. Public for the crate that
+    /// keeps parameters.
+    #[doc(hidden)]
     pub fn new(job: &Job, tuning: &Tuning, restitution: f64) -> Self {
         let (objective, asked) = (tuning.objective, tuning.asked());
         let errors = job.tuned.best.errors;
@@ -85,6 +87,7 @@ impl Assessment {
     }
 
     /// What was measured by the yardstick of what was asked for.
+    #[doc(hidden)]
     pub fn judged(&self) -> &Accuracy {
         match (self.judged_by, &self.measured_peaks) {
             (Yardstick::Peaks, Some(peaks)) => &peaks.largest,
@@ -94,6 +97,7 @@ impl Assessment {
 
     /// The landing that the springs follow from, and what decided on Omega_n; none of springs that
     /// a search found.
+    #[doc(hidden)]
     pub fn design(&self) -> Option<[String; 2]> {
         let l = self.landing.as_ref()?;
         let landing = format!(

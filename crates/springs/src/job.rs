@@ -83,8 +83,10 @@ impl Job {
     /// so far.
     ///
     /// # Errors
-    /// No springs that settle as little as asked for; for the paper's procedure, a record that does
-    /// not lift the structure.
+    /// A record of less than two samples, or of more steps than a history may take; no springs that
+    /// settle as little as asked for, or that follow the record to its end; a target, bounds or
+    /// mass ratios that cannot be; for the paper's procedure, a record that does not lift the
+    /// structure.
     pub fn new(case: &Case, progress: SearchProgress) -> Result<Self, JobError> {
         Self::within(case, &Effort::of(MOST_WORK, StopSignal::default()), progress)
     }

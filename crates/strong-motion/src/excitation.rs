@@ -65,6 +65,7 @@ impl Excitation {
 
     /// The vertical component that the record's file has and that is not used; `None` if there is
     /// none, or if it is used.
+    #[doc(hidden)]
     pub fn vertical_left_out(&self) -> Option<VerticalLeftOut> {
         let Source::File { vertical_left_out_g: Some(peak_g), .. } = self.record.source else {
             return None;
@@ -80,6 +81,7 @@ impl Excitation {
     ///
     /// # Errors
     /// The file cannot be read any more, or has several vertical components.
+    #[doc(hidden)]
     pub fn with_vertical_left_out(&self) -> Option<Result<Self, RecordError>> {
         self.vertical_left_out()?;
         let Source::File { path, units, component, baseline, .. } = &self.record.source else {
@@ -96,6 +98,7 @@ impl Excitation {
     }
 
     /// One line: which record, from where, its scale, how much of it, and the peak of that part.
+    #[doc(hidden)]
     pub fn line(&self) -> String {
         let from = match &self.record.source {
             crate::Source::File { path, units, .. } => {
@@ -115,6 +118,7 @@ impl Excitation {
 
     /// The same, shorter: without the file's path, the number of samples, and when the peak is; of
     /// no number more than four digits.
+    #[doc(hidden)]
     pub fn short_line(&self) -> String {
         let from = match &self.record.source {
             crate::Source::File { units, .. } => units.to_string(),

@@ -74,6 +74,7 @@ const OPTIONS: [(&str, &str); 3] =
 
 impl Notice {
     /// The same for who gives keys of a section of a file, not options.
+    #[doc(hidden)]
     pub fn with_keys_of(&self, section: &str) -> String {
         OPTIONS.iter().fold(self.to_string(), |told, (option, key)| {
             told.replace(option, &format!("{key} under [{section}]"))

@@ -29,9 +29,9 @@ pub enum Source {
         /// The component taken as the horizontal motion, if it is a vertical one.
         vertical_taken: Option<String>,
     },
-    /// Made from a seed for a structure (`synthetic::record`).
+    /// Made from a seed for a structure.
     Synthetic,
-    /// Made from a seed, with the frequencies of earthquakes (`synthetic::earthquake`).
+    /// Made from a seed, with the frequencies of earthquakes.
     Earthquake,
 }
 

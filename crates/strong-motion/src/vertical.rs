@@ -57,7 +57,8 @@ impl FromStr for VerticalFrom {
 }
 
 impl VerticalFrom {
-    /// The same, a relative path starting from a folder.
+    /// What it names, a relative path of a file starting from a folder.
+    #[doc(hidden)]
     #[must_use]
     pub fn within(self, folder: &Path) -> Self {
         match self {
@@ -91,6 +92,7 @@ impl Vertical {
     }
 
     /// As a record of its own, with the time step given (s).
+    #[doc(hidden)]
     pub fn as_record(&self, dt: f64) -> Record {
         let (name, source) = (self.name.clone(), self.source.clone());
         Record { name, dt, accel: self.accel.to_vec(), vertical: None, source, made_of: None }
@@ -250,7 +252,8 @@ impl Record {
         self.vertical.as_ref().map_or(&[], |vertical| &vertical.accel)
     }
 
-    /// The same as `housner::RockingOptions` take it.
+    /// Vertical acceleration at the record's times (m/s2), positive upwards, shared, as
+    /// `RockingOptions::vertical` takes it; none if the record has none.
     pub fn vertical_accel(&self) -> Option<Arc<[f64]>> {
         self.vertical.as_ref().map(|vertical| Arc::clone(&vertical.accel))
     }

@@ -65,7 +65,7 @@ const CHANGE: f64 = 1e-5;
 pub struct Row {
     /// The record's name.
     pub name: String,
-    /// How the finite element history ended.
+    /// What became of both histories: whether they could be compared, or which model failed.
     pub outcome: RecordOutcome,
     /// Length compared: up to the end of the shorter history, and to the first overturning (s).
     pub duration_s: f64,
@@ -74,18 +74,20 @@ pub struct Row {
     /// Relative change of Housner's u per relative change of width or record scale, whichever is
     /// worse.
     pub sensitivity: f64,
-    /// sqrt( sum (u - u_H)^2 / sum u_H^2 ), up to the first overturning; none if the record never
-    /// lifts the body or a model failed.
+    /// NRMSE of the horizontal displacement: sqrt( sum (u - u_H)^2 / sum u_H^2 ), u_H Housner's, up
+    /// to the first overturning; none if the record never lifts the body or a model failed.
     pub nrmse_horizontal: Option<f64>,
-    /// The same for v, from the settled position.
+    /// NRMSE of the vertical displacement v, from the settled position; none where
+    /// `nrmse_horizontal` is.
     pub nrmse_vertical: Option<f64>,
-    /// Peak |theta|/alpha at the samples; pi/2 / alpha if it toppled.
+    /// Peak |theta|/alpha of Housner's body at the samples; pi/2 / alpha if it toppled.
     pub peak_ratio_housner: f64,
-    /// The same while a foot is off the ground; none if the history failed.
+    /// Peak |theta|/alpha of the finite elements while a foot is off the ground; pi/2 / alpha if
+    /// they toppled; none if the history failed.
     pub peak_ratio_fem: Option<f64>,
     /// Whether Housner's body overturned.
     pub overturned_housner: bool,
-    /// None if the history failed.
+    /// Whether the finite elements overturned; none if their history failed.
     pub overturned_fem: Option<bool>,
     /// Impacts of Housner's body.
     pub impacts: usize,
@@ -96,12 +98,13 @@ pub struct Row {
     pub suite: Suite,
     /// By the derivative and by finite changes; false if the record never lifts Housner's body.
     pub well_conditioned: bool,
-    /// How far a change of 0.1 % and of 1 % in width or scale, whichever is worse, moves Housner's
-    /// u.
+    /// How far a change of 0.1 % in width or scale, whichever is worse, moves Housner's u, relative
+    /// to it.
     pub moved_by_0_1_percent: f64,
-    /// The same of 1 %.
+    /// How far a change of 1 % in width or scale, whichever is worse, moves Housner's u, relative
+    /// to it.
     pub moved_by_1_percent: f64,
-    /// How far a change of 0.1 % in restitution moves it.
+    /// How far a change of 0.1 % in restitution moves Housner's u, relative to it.
     pub moved_by_0_1_percent_of_restitution: f64,
     /// As `peak_ratio_housner`, with a restitution smaller by 1e-5 of it.
     pub peak_ratio_housner_changed: f64,
@@ -113,12 +116,12 @@ pub struct Row {
     /// Relative error of the largest |u|; this and the next ones are none where `nrmse_horizontal`
     /// is.
     pub displacement_error: Option<f64>,
-    /// Of the largest uplift of a foot.
+    /// Relative error of the largest uplift of a foot.
     pub uplift_error: Option<f64>,
-    /// Of the largest base shear between landings; this and the next are none of steps of one size,
-    /// too.
+    /// Relative error of the largest base shear between landings; this and the next are none of
+    /// steps of one size, too.
     pub base_shear_error: Option<f64>,
-    /// Of the largest vertical force of the ground between landings.
+    /// Relative error of the largest vertical force of the ground between landings.
     pub axial_error: Option<f64>,
 }
 

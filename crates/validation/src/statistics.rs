@@ -104,26 +104,27 @@ pub struct Summary {
     pub count: usize,
     /// Kolmogorov-Smirnov distance of the peak ratios, all records.
     pub ks_distance: f64,
-    /// The same of Housner's peak ratios from his own with a restitution smaller by 1e-5: less than
-    /// this no model can show.
+    /// Kolmogorov-Smirnov distance of Housner's peak ratios from his own with a restitution smaller
+    /// by 1e-5: less than this no model can show.
     pub ks_distance_of_housner_changed: f64,
     /// Share of the records on whose overturning both models agree; a failure is a disagreement.
     pub overturning_agreement: f64,
-    /// The same of Housner's own answers with a restitution smaller by 1e-5: more than this no
-    /// model can show but by chance.
+    /// Share of the records on whose overturning Housner's body agrees with his own of a
+    /// restitution smaller by 1e-5: more than this no model can show but by chance.
     pub overturning_agreement_of_housner_changed: f64,
     /// Overturning in both models.
     pub overturning: Confusion,
-    /// NRMSE of u over the comparable records.
+    /// NRMSE of u over the comparable records ([`Row::comparable`]).
     pub nrmse_well_conditioned: Quantiles,
-    /// NRMSE of v over the same records.
+    /// NRMSE of v over the comparable records.
     pub nrmse_vertical_well_conditioned: Quantiles,
     /// Relative error of the largest displacement, uplift, base shear and axial force, the worst of
-    /// those that are compared, over the same records.
+    /// those that are compared, over the comparable records.
     pub peaks_well_conditioned: Quantiles,
-    /// NRMSE of u over all records that are not hopeless.
+    /// Geometric mean of the NRMSE of u over the records that [`GeometricMean`] names: a
+    /// sensitivity below 150, Housner's body lifts, does not topple, and its pivot presses.
     pub nrmse_geometric_mean: GeometricMean,
-    /// The error of peaks over the same records.
+    /// Geometric mean of the error of peaks over those records.
     pub peaks_geometric_mean: GeometricMean,
     /// Records that never lift Housner's body.
     pub never_lifted: usize,
@@ -133,7 +134,7 @@ pub struct Summary {
     /// Records that do not topple Housner's body but ask his pivot to pull: free flight, where
     /// rocking does not hold.
     pub pivot_pulls: usize,
-    /// Names of the records in which a model failed.
+    /// Names of the records in which a model failed ([`Row::failed`]).
     pub failed: Vec<String>,
     /// Largest energy residual of all finite element histories; none where they have none.
     pub energy_residual_max: Option<f64>,

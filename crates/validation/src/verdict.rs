@@ -57,10 +57,10 @@ pub struct Verdict {
     pub finite_elements: Answer,
     /// Whether Housner's history is well conditioned: whether the two can be compared one to one.
     pub well_conditioned: bool,
-    /// NRMSE of u and v over the length compared; none where there is nothing to compare.
+    /// NRMSE of u over the length compared; none where there is nothing to compare.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nrmse_horizontal: Option<f64>,
-    /// Of v.
+    /// NRMSE of v over the length compared; none where there is nothing to compare.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nrmse_vertical: Option<f64>,
     /// Length compared: up to the first overturning (s).
@@ -82,6 +82,7 @@ impl Answer {
     }
 
     /// Of a history on springs.
+    #[doc(hidden)]
     pub fn of_history(body: &Body<f64>, dt: f64, history: &History) -> Self {
         let theta = &history.motion.theta;
         let time = overturned(body, dt, theta);
@@ -117,6 +118,8 @@ impl Answer {
 
 impl Verdict {
     /// From both histories at the same samples, their match, and the conditioning of Housner's.
+    /// Public for the crates that compare.
+    #[doc(hidden)]
     pub fn new(
         body: &Body<f64>,
         dt: f64,
@@ -139,6 +142,7 @@ impl Verdict {
     }
 
     /// Beside Housner's history without the vertical component.
+    #[doc(hidden)]
     #[must_use]
     pub fn beside(self, body: &Body<f64>, dt: f64, level: &Rocking<f64>) -> Self {
         Self { housner_without_vertical: Some(Answer::of_housner(body, dt, level)), ..self }

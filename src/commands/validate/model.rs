@@ -64,7 +64,7 @@ impl JudgedSprings {
         }
         let Some(row) = &parameters.program else {
             let why = match parameters.members().is_none() {
-                true => stepped_model(&parameters, stepping).err().map(|why| why.to_string()),
+                true => stepped_model(&parameters, stepping).err().map(|why| why.with_options()),
                 false => None,
             };
             let why = why.as_deref().and_then(|why| why.strip_prefix("export: "));

@@ -14,6 +14,8 @@ fn a_cabinet_that_would_not_stand_in_a_room_is_doubted() {
         "height_m = 1.9, of the centre of mass, makes a block 3.8 m tall"
     );
     assert_eq!(doubts[0].remedy(), "if 1.9 m is its total height, write total_height_m = 1.9");
+    let told = doubts[0].to_string();
+    assert!(told.ends_with("tall; if 1.9 m is its total height, write total_height_m = 1.9"));
     let feet = block("height_in = 74.0\nwidth_in = 30.0\nweight_lb = 900\n");
     assert_eq!(feet[0].remedy(), "if 74 in is its total height, write total_height_in = 74");
     // twice 1 m stands in a room; a height that is said to be the total one is none to doubt

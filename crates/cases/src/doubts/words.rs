@@ -1,7 +1,16 @@
 //! What is said of a doubt: what it is, and what to do if it is right.
 
+use std::fmt;
+
 use super::{Doubt, MOST_PGA_G};
 use files::message::rounded;
+
+/// In one line: what is doubted, and what to do if the doubt is right.
+impl fmt::Display for Doubt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}; {}", self.message(), self.remedy())
+    }
+}
 
 impl Doubt {
     /// What is doubted, in one line.

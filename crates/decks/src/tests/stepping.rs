@@ -251,10 +251,11 @@ fn what_has_no_springs_or_no_integrator_for_a_program_is_refused() {
         stepped_deck(parameters, &record, format, stepping, None).unwrap_err().to_string()
     };
     let even = for_program(ProgramName::OpenSees, 0.002);
-    assert!(
-        refused(&super::parameters(), DeckFormat::OpenSeesPy, Stepping::Even)
-            .contains("--for sap2000")
-    );
+    let none =
+        stepped_deck(&super::parameters(), &record, DeckFormat::OpenSeesPy, Stepping::Even, None);
+    let none = none.unwrap_err();
+    assert!(none.to_string().contains("no springs for steps of one size"), "{none}");
+    assert!(none.with_options().contains("--for sap2000"));
     assert!(
         refused(&even, DeckFormat::Sap2000, Stepping::Even)
             .contains("trbdf2 is not written for SAP2000")

@@ -50,7 +50,8 @@ pub enum HistoryOutcome {
         /// (s)
         time: f64,
     },
-    /// The observer asked to stop at this time (s).
+    /// The observer asked to stop at this time (s). No history that a user gets ends so.
+    #[doc(hidden)]
     Stopped {
         /// (s)
         time: f64,

@@ -18,7 +18,16 @@ use super::{
 };
 use rocking::{motion::TimedPeak, structure::Body};
 
-/// The forces, in the order of their columns: names with units.
+/// The forces of a history: their names, with units, in the order of their columns.
+///
+/// | place | name | what it is | positive |
+/// |---|---|---|---|
+/// | 0 | `base_shear_n` | of the ground and the tendon's anchor on the body (N) | to the right |
+/// | 1, 4 | `axial_left_n`, `axial_right_n` | along the leg (N) | tension |
+/// | 2, 5 | `shear_left_n`, `shear_right_n` | moment over the leg's length (N) | as the moment |
+/// | 3, 6 | `moment_left_nm`, `moment_right_nm` | at the mass (N m) | turns it to the right |
+/// | 7 | `tendon_n` | in the tendon (N) | tension |
+/// | 8, 9 | `damper_left_n`, `damper_right_n` | of the damper on its corner (N) | upwards |
 pub const QUANTITIES: [&str; 10] = [
     "base_shear_n",
     "axial_left_n",
@@ -38,25 +47,30 @@ pub const DAMPERS: [usize; 2] = [8, 9];
 /// One value of each of `QUANTITIES`.
 pub(crate) type DemandRow = [f64; QUANTITIES.len()];
 
-/// The forces of a history.
+/// The forces of a history, each a row in the order of [`QUANTITIES`]. To design with, take
+/// `between`: in a landing, forces are those of the ground springs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Demands {
-    /// For every sample the values of largest magnitude since the sample before.
+    /// For every sample the values of largest magnitude since the sample before, with their signs.
     pub rows: Vec<DemandRow>,
     /// The values at every sample.
     pub at: Vec<DemandRow>,
-    /// The ground's forces (H, N) on the left and the right foot at every sample (N).
+    /// The ground's forces (H, N) on the left and the right foot at every sample (N): H positive to
+    /// the right, N positive where the foot presses.
     pub feet: Vec<[[f64; 2]; 2]>,
-    /// Largest magnitude of each, over all steps: in landings, forces of the springs.
+    /// The value of largest magnitude of each over all steps, with its sign and time. Not to design
+    /// with: in a landing it is a force of the springs, the larger the stiffer they are.
     pub peaks: [TimedPeak; QUANTITIES.len()],
-    /// Largest magnitude of each between landings: later than 0.1/p after the last touch-down,
-    /// times those of the samples.
+    /// The value of largest magnitude of each between landings, with its sign, which is what to
+    /// design with: later than 0.1/p (s) after the last touch-down. Its time is that of the sample.
     pub between: [TimedPeak; QUANTITIES.len()],
     largest: DemandRow,
 }
 
 impl Demands {
-    /// Find what is largest between these landings, over the first `samples` of the history.
+    /// Find what is largest between these landings, over the first `samples` of the history. Public
+    /// for the crates that make histories.
+    #[doc(hidden)]
     pub fn separate(&mut self, body: &Body<f64>, dt: f64, landings: &[Landing], samples: usize) {
         self.between = Default::default();
         for i in between_landings(body, dt, landings, samples.min(self.rows.len())) {

@@ -40,7 +40,8 @@ pub struct Account {
 }
 
 impl Account {
-    /// The account at a sample.
+    /// Append the account at a sample. Public for the crates that make histories.
+    #[doc(hidden)]
     pub fn push(&mut self, energy: &Energy) {
         self.input.push(energy.input);
         self.stored.push(energy.stored - energy.initial);
@@ -60,7 +61,7 @@ pub struct History {
     pub forces: Forces,
     /// Of energy.
     pub account: Account,
-    /// How it ended.
+    /// How it ended: of any but `Completed` the vectors above end before the record.
     pub outcome: HistoryOutcome,
     /// What it cost.
     pub work: Work,
@@ -73,12 +74,12 @@ pub struct History {
 }
 
 impl History {
-    /// Number of impacts, re-landings of bounces not counted.
+    /// Number of impacts ([`Landing::impact`]): re-landings of bounces are not counted.
     pub fn impacts(&self) -> usize {
         self.landings.iter().filter(|l| l.impact).count()
     }
 
-    /// Number of bounces.
+    /// Number of bounces ([`Landing::bounced`]).
     pub fn bounces(&self) -> usize {
         self.landings.iter().filter(|l| l.bounced).count()
     }

@@ -11,8 +11,8 @@
 //!   than from 0.1 % of alpha: shaken hard, it rocks that fast;
 //! - an *impact* ends a lean: the first touch-down of the other foot, whether the body goes on
 //!   leaning on that or rests. A lean that the history's end cuts short has none;
-//! - a *bounce* is a touch-down of the foot leaned on (or landed on) that opens again within a
-//!   moment.
+//! - a *bounce* is a touch-down of the foot that the last impact was on, that impact included,
+//!   which opens again within a moment and before the next impact.
 
 use super::observer::Change;
 
@@ -33,9 +33,12 @@ pub struct Landing {
     /// Of an impact: energy taken by dashpots and let go by springs from it to the next impact, or
     /// to the end (J).
     pub lost: f64,
-    /// Whether this foot, landed or leaned on, opened again within 0.1/p.
+    /// Whether it is a bounce: a touch-down of the foot that the last impact was on, that impact
+    /// included, which opens again within 0.1/p (s) and before the next impact; p is the body's
+    /// frequency parameter (1/s).
     pub bounced: bool,
-    /// Whether it ends a lean on the other foot: no re-landing of a bounce, no touch within a lean.
+    /// Whether it is an impact: it ends a lean on the other foot. No re-landing of a bounce and no
+    /// touch within a lean is one.
     pub impact: bool,
     /// Of an impact: time with both feet in the air from it to the next impact, or to the end (s).
     pub airborne: f64,
