@@ -147,7 +147,7 @@ pub fn validate(
 
 /// Every record of a folder, with what its reader says.
 fn read_folder(py: Python<'_>, folder: &std::path::Path) -> PyResult<Vec<strong_motion::Record>> {
-    let files = strong_motion::list_dir(folder).map_err(value_error)?;
+    let files = strong_motion::Record::list_dir(folder).map_err(value_error)?;
     let read = |file: &PathBuf| {
         let recording =
             strong_motion::Recording::read(file, &ReadOptions::default()).map_err(value_error)?;

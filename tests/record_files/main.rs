@@ -1,6 +1,7 @@
 //! Record files of the networks: real ones, ones made in each format, and damaged ones.
 
 mod command;
+mod formats;
 mod malformed;
 #[path = "../support/program.rs"]
 mod program;

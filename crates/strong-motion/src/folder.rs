@@ -1,15 +1,16 @@
 //! The record files of a folder.
 
-use std::path::{Path, PathBuf};
+use std::{
+    collections::BTreeSet,
+    path::{Path, PathBuf},
+};
 
-use super::{Record, RecordError};
+use super::{Record, RecordError, RecordFormat};
 
-/// Endings of the files that are taken for records, in any case; of K-NET's and
-/// KiK-net's, which have one component each, the horizontal ones at the surface.
-const EXTENSIONS: [&str; 16] = [
-    "at2", "txt", "csv", "dat", "acc", "asc", "v1", "v2", "v1a", "v2a", "v1c", "v2c", "ns", "ew",
-    "ns2", "ew2",
-];
+/// Endings of the files that are taken for records, in any case.
+fn endings() -> BTreeSet<&'static str> {
+    RecordFormat::ALL.into_iter().flat_map(RecordFormat::endings).copied().collect()
+}
 
 impl Record {
     /// The record files of a folder (by their endings, in any case; not of its subfolders), sorted
@@ -22,7 +23,7 @@ impl Record {
             file: super::label(folder),
             reason: super::text::quote(&error.to_string()),
         };
-        let mut files = Vec::new();
+        let (endings, mut files) = (endings(), Vec::new());
         for entry in std::fs::read_dir(folder).map_err(unreadable)? {
             let path = entry.map_err(unreadable)?.path();
             let ending = path
@@ -30,22 +31,17 @@ impl Record {
                 .and_then(|ending| ending.to_str())
                 .unwrap_or("")
                 .to_ascii_lowercase();
-            if EXTENSIONS.contains(&ending.as_str()) && !path.is_dir() {
+            if endings.contains(ending.as_str()) && !path.is_dir() {
                 files.push(path);
             }
         }
         if files.is_empty() {
             return Err(RecordError::NoRecords {
                 folder: super::label(folder),
-                extensions: EXTENSIONS.join(", "),
+                extensions: endings.into_iter().collect::<Vec<_>>().join(", "),
             });
         }
         files.sort();
         Ok(files)
     }
-}
-
-/// The same, for the Python package.
-pub fn list_dir(folder: &Path) -> Result<Vec<PathBuf>, RecordError> {
-    Record::list_dir(folder)
 }

@@ -24,6 +24,7 @@ pub enum RecordFormat {
     /// ESM, ITACA, AFAD (DYNA 1.x): one component a file.
     Dyna,
     /// Columns of text: time and acceleration, acceleration alone, or bare values read row by row.
+    /// The last of them, for it is what a text is of no other format.
     Columns,
 }
 
@@ -47,27 +48,51 @@ impl Serialize for RecordFormat {
     }
 }
 
-/// Whether the first lines of a file, without blanks around them, are those of a format.
-type Test = fn(&[&str]) -> bool;
-
 /// How far down a file says what it is.
 const HEAD_LINES: usize = 100;
 
 impl RecordFormat {
+    /// Every format, in the order in which a file is asked whether it is of it.
+    pub const ALL: [Self; Self::Columns as usize + 1] = [
+        Self::Cosmos,
+        Self::GeoNet,
+        Self::Csmip,
+        Self::KNet,
+        Self::Dyna,
+        Self::Peer,
+        Self::Columns,
+    ];
+
     /// The format that the first lines speak; columns if none.
     pub(super) fn of(text: &str) -> Self {
         let head: Vec<&str> = lines(text).take(HEAD_LINES).map(|(_, line)| line).collect();
-        let is: [(Self, Test); 5] = [
-            (Self::Cosmos, cosmos::is_it),
-            (Self::GeoNet, geonet::is_it),
-            (Self::Csmip, csmip::is_it),
-            (Self::KNet, knet::is_it),
-            (Self::Dyna, dyna::is_it),
-        ];
-        match is.into_iter().find(|(_, is_it)| is_it(&head)) {
-            Some((format, _)) => format,
-            None if at2::header_line(text).is_some() => Self::Peer,
-            None => Self::Columns,
+        Self::ALL.into_iter().find(|format| format.is_of(text, &head)).unwrap_or(Self::Columns)
+    }
+
+    /// Whether a text is of this format; `head` are its first lines without blanks around them.
+    fn is_of(self, text: &str, head: &[&str]) -> bool {
+        match self {
+            Self::Peer => at2::header_line(text).is_some(),
+            Self::GeoNet => geonet::is_it(head),
+            Self::Cosmos => cosmos::is_it(head),
+            Self::Csmip => csmip::is_it(head),
+            Self::KNet => knet::is_it(head),
+            Self::Dyna => dyna::is_it(head),
+            Self::Columns => true,
+        }
+    }
+
+    /// Endings of its files, in small letters: those that are taken for records in a folder. Of
+    /// K-NET's and KiK-net's, which have one component each, the horizontal ones at the surface.
+    pub(super) fn endings(self) -> &'static [&'static str] {
+        match self {
+            Self::Peer => &["at2"],
+            Self::GeoNet => &["v1a", "v2a"],
+            Self::Cosmos => &["v1", "v2", "v1c", "v2c"],
+            Self::Csmip => &["v2"],
+            Self::KNet => &["ns", "ew", "ns2", "ew2"],
+            Self::Dyna => &["asc"],
+            Self::Columns => &["txt", "csv", "dat", "acc"],
         }
     }
 
@@ -93,6 +118,24 @@ impl RecordFormat {
             Self::KNet => knet::parse(file, text),
             Self::Dyna => dyna::parse(file, text),
             Self::Columns => columns::parse(file, text, options),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The compiler counts them; each of them is another one, and any text is of the last.
+    #[test]
+    fn all_formats_are_listed_once_columns_last() {
+        let places: Vec<usize> = RecordFormat::ALL.map(|format| format as usize).to_vec();
+        let mut sorted = places.clone();
+        sorted.sort_unstable();
+        assert_eq!(sorted, (0..places.len()).collect::<Vec<_>>());
+        assert_eq!(RecordFormat::ALL.last(), Some(&RecordFormat::Columns));
+        for format in RecordFormat::ALL {
+            assert!(!format.endings().is_empty(), "{format}");
         }
     }
 }

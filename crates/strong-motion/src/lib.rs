@@ -55,7 +55,6 @@ pub use source::fnv1a;
 pub use units::{Units, UnitsError};
 pub use vertical::{Vertical, VerticalFrom, cut_to};
 pub use {
-    folder::list_dir,
     measures::{Measures, measures},
     vertical::as_record,
 };
