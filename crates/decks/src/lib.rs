@@ -284,11 +284,9 @@ fn export_model(model: &DeckModel, format: DeckFormat) -> Result<String, ExportE
 
 /// The first of a structure's members, by name.
 fn member(members: &Members) -> Option<&'static str> {
-    let all = [
-        members.friction.map(|_| "friction"),
-        members.damper.map(|_| "damper"),
-        members.tendon.map(|_| "tendon"),
-    ];
+    let Members { damper, tendon, friction } = members;
+    let all =
+        [friction.map(|_| "friction"), damper.map(|_| "damper"), tendon.map(|_| "tendon")];
     all.into_iter().flatten().next()
 }
 

@@ -6,7 +6,7 @@ use super::{
     language::{Language, PYTHON, TCL, record_note},
     model::{A_PAIR, DeckModel, LEG_STIFFNESS, digits},
 };
-use rocking::scalar::GRAVITY;
+use rocking::{members::Friction, scalar::GRAVITY};
 
 /// The deck for openseespy.
 pub(super) fn python(model: &DeckModel) -> Result<String, ExportError> {
@@ -54,7 +54,10 @@ fn fill(language: &Language, template: &str, model: &DeckModel) -> Result<String
         ("M2_H", digits(h.m2)),
         ("LEG", digits(model.leg)),
         ("DAMPER_C", digits(model.members.damper.map_or(0.0, |d| d.c))),
-        ("FRICTION", digits(model.members.friction.map_or(HOLDS, |f| f.coefficient))),
+        (
+            "FRICTION",
+            digits(model.members.friction.map_or(HOLDS, |Friction { coefficient }| coefficient)),
+        ),
         ("TENDON_K", digits(model.members.tendon.map_or(0.0, |t| t.stiffness))),
         ("TENDON_SLACK", digits(model.slack())),
         ("LEG_RATIO", LEG_STIFFNESS.to_string()),

@@ -76,7 +76,10 @@ impl ContactLaw {
     /// Whether a foot may slip.
     #[inline(always)]
     pub(crate) fn slips(&self) -> bool {
-        matches!(self, Self::Coulomb { .. })
+        match self {
+            Self::Sticking => false,
+            Self::Coulomb { .. } => true,
+        }
     }
 
     /// mu; zero where no foot slips.

@@ -265,10 +265,15 @@ impl Model {
         let press = || (q[az(i)] - pz) * self.springs.vertical.k1;
         let vertical = if foot.closed() { press() } else { 0.0 };
         // the law first: where no foot can slip, lanes of histories must not branch on how one does
-        let horizontal = match (&self.law, foot.contact) {
-            (ContactLaw::Coulomb { .. }, Contact::Slip(side)) => self.law.slipping(press(), side),
-            _ if foot.holds() => (q[ax(i)] + foot.anchor - px) * self.springs.horizontal.k1,
-            _ => 0.0,
+        let held = || (q[ax(i)] + foot.anchor - px) * self.springs.horizontal.k1;
+        let horizontal = match &self.law {
+            ContactLaw::Sticking if foot.holds() => held(),
+            ContactLaw::Sticking => 0.0,
+            ContactLaw::Coulomb { .. } => match foot.contact {
+                Contact::Slip(side) => self.law.slipping(press(), side),
+                Contact::Stick => held(),
+                Contact::Open | Contact::Slide | Contact::Trail => 0.0,
+            },
         };
         FootForce { px_th, pz_th, horizontal, vertical }
     }
