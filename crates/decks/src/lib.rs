@@ -285,8 +285,7 @@ fn export_model(model: &DeckModel, format: DeckFormat) -> Result<String, ExportE
 /// The first of a structure's members, by name.
 fn member(members: &Members) -> Option<&'static str> {
     let Members { damper, tendon, friction } = members;
-    let all =
-        [friction.map(|_| "friction"), damper.map(|_| "damper"), tendon.map(|_| "tendon")];
+    let all = [friction.map(|_| "friction"), damper.map(|_| "damper"), tendon.map(|_| "tendon")];
     all.into_iter().flatten().next()
 }
 

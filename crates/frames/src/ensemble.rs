@@ -55,7 +55,7 @@ impl Spread {
             all.sort_by(f64::total_cmp);
             all
         });
-        let at = |q: f64| [0, 1].map(|k| quantile(&sorted[k], q));
+        let at = |q: f64| [0, 1].map(|k| quantile(&sorted[k], q).filter(|x| x.is_finite()));
         Self { median: at(0.5), p90: at(0.9), ks_distance: ks_distance(reference, fem) }
     }
 }

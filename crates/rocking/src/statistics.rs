@@ -1,13 +1,20 @@
 //! Statistics of samples.
 
 /// The q-quantile of sorted numbers, linear between the two nearest ranks (Hyndman and Fan 1996,
-/// definition 7); none if that is not finite.
+/// definition 7); infinite where it lies at or next to an infinite number, none of no numbers.
 pub fn quantile(sorted: &[f64], q: f64) -> Option<f64> {
-    let rank = q * sorted.len().checked_sub(1)? as f64;
-    let (low, share) = (rank.floor() as usize, rank.fract());
-    let x = sorted[low];
-    let x = if share == 0.0 { x } else { x + share * (sorted[low + 1] - x) };
-    x.is_finite().then_some(x)
+    quantile_of_ranks(sorted.len() as u64, q, |rank| sorted[rank as usize])
+}
+
+/// The same of so many numbers, of which `ranked` gives that of a rank from zero, in ascending
+/// order.
+pub fn quantile_of_ranks(count: u64, q: f64, ranked: impl Fn(u64) -> f64) -> Option<f64> {
+    let rank = q * count.checked_sub(1)? as f64;
+    let (low, share) = (rank.floor() as u64, rank.fract());
+    let x = ranked(low);
+    let above = if share == 0.0 { x } else { ranked(low + 1) };
+    // between two infinite ones nothing is computed
+    Some(if x == above { x } else { x + share * (above - x) })
 }
 
 /// The largest of magnitudes; zero of none, infinite where one is not a number.
@@ -36,4 +43,20 @@ pub fn ks_distance(a: &[f64], b: &[f64]) -> f64 {
         widest = widest.max((i as f64 / a.len() as f64 - j as f64 / b.len() as f64).abs());
     }
     widest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quantile_lies_between_ranks_and_is_infinite_next_to_an_infinite_number() {
+        let over = f64::INFINITY;
+        assert_eq!(quantile(&[1.0, 2.0, 3.0, 5.0], 0.5), Some(2.5));
+        assert_eq!(quantile(&[1.0, 2.0, 4.0], 0.75), Some(3.0));
+        assert_eq!(quantile(&[1.0, 2.0, over], 0.5), Some(2.0));
+        assert_eq!(quantile(&[1.0, over], 0.5), Some(over));
+        assert_eq!(quantile(&[over, over], 0.5), Some(over));
+        assert_eq!((quantile(&[7.0], 0.9), quantile(&[], 0.5)), (Some(7.0), None));
+    }
 }

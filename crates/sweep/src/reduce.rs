@@ -8,7 +8,7 @@ use super::{
     plan::{Cell, Plan},
 };
 use files::message::rounded;
-use rocking::statistics::ks_distance;
+use rocking::statistics::{ks_distance, quantile_of_ranks};
 use sweep_table::{Column, SweepTable};
 
 /// The models of a sweep's columns.
@@ -146,14 +146,9 @@ impl Histogram {
         self.zero + self.infinite + others
     }
 
-    /// The quantile of a share, linear between the two nearest ranks (Hyndman and Fan 1996,
-    /// definition 7); infinite where it lies at or next to an infinite number.
+    /// The quantile of a share; infinite where it lies at or next to an infinite number.
     pub(crate) fn quantile(&self, share: f64) -> Option<f64> {
-        let rank = share * self.count().checked_sub(1)? as f64;
-        let (low, between) = (rank.floor(), rank.fract());
-        let x = self.ranked(low as u64);
-        let above = if between == 0.0 { x } else { self.ranked(low as u64 + 1) };
-        let found = if x == above { x } else { x + between * (above - x) };
+        let found = quantile_of_ranks(self.count(), share, |rank| self.ranked(rank))?;
         Some(match self.numbers {
             // the middle of a bin has no more digits
             Numbers::Binned(_) => rounded(found, 4),

@@ -56,7 +56,8 @@ impl Quantiles {
         let mut errors: Vec<f64> =
             comparable.map(|row| row.error(nrmse(row)).unwrap_or(f64::INFINITY)).collect();
         errors.sort_by(f64::total_cmp);
-        Self { count: errors.len(), median: quantile(&errors, 0.5), p90: quantile(&errors, 0.9) }
+        let at = |q: f64| quantile(&errors, q).filter(|x| x.is_finite());
+        Self { count: errors.len(), median: at(0.5), p90: at(0.9) }
     }
 }
 
