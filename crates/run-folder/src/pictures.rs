@@ -52,7 +52,7 @@ impl Pictures<'_> {
     /// Numbers that cannot be drawn.
     pub(crate) fn draw(&self) -> Result<Vec<Figure>, FigureError> {
         type Draw<'a> = fn(&Pictures<'a>) -> Result<Option<Sheet>, FigureError>;
-        let all: [(&str, &str, Draw); 6] = [
+        let all: &[(&str, &str, Draw)] = &[
             (
                 HISTORY,
                 "Displacement of the mass, finite elements over Housner's solution; impacts as \
@@ -74,7 +74,7 @@ impl Pictures<'_> {
             (FRONT, "What stiffer springs gain in accuracy, and what they cost.", Self::front),
             (CANDIDATES, "Every pair of Ωₙ that the paper's procedure tried.", Self::candidates),
         ];
-        let drawn = parallel::map(&all, |(name, caption, draw)| {
+        let drawn = parallel::map(all, |(name, caption, draw)| {
             Ok(draw(self)?.map(|sheet| Figure { name, caption, sheet }))
         });
         drawn.into_iter().filter_map(Result::transpose).collect()
