@@ -87,6 +87,8 @@ pub use parameters::program::{FootUnits, ProgramRow};
 pub use parameters::{Parameters, ParametersError, RememberedError};
 #[doc(inline)]
 pub use rocking::conditioning::{Changes, Conditioning, Sensitivity};
+/// Rock the rigid body by Housner's equation.
+///
 /// ```
 /// use groundspring::{RockingOptions, Structure, rock};
 /// let body = Structure::a_frame(61.0, 12.2, 680.1e3)?.body::<f64>();

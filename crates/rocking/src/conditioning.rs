@@ -55,11 +55,11 @@ pub(crate) const MOVED_BY_RESTITUTION: f64 = 0.1;
 /// %, the larger of both signs, up to the first overturning of the two.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Changes {
-    /// By the width 2b.
+    /// How far a change of the width 2b by 0.1 % and by 1 % moves it.
     pub width: [f64; 2],
-    /// By the record's scale.
+    /// How far a change of the record's scale by 0.1 % and by 1 % moves it.
     pub scale: [f64; 2],
-    /// By the restitution e, which stays at most 1.
+    /// How far a change of the restitution e, which stays at most 1, by 0.1 % and by 1 % moves it.
     pub restitution: [f64; 2],
     /// Whether a changed body overturns and the unchanged one does not, or the other way round.
     pub overturning: bool,
@@ -86,9 +86,9 @@ impl Changes {
 /// How far a history can be trusted to mean something for a model that is not quite the same.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conditioning {
-    /// By derivatives.
+    /// Relative change of the history per relative change of width and scale, by derivatives.
     pub sensitivity: Sensitivity,
-    /// By finite changes.
+    /// How far changes of 0.1 % and 1 % move the history.
     pub changes: Changes,
 }
 

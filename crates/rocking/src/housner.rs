@@ -79,7 +79,7 @@ impl RockingOptions<f64> {
 /// theta = 0: the body lands on its other foot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact<S> {
-    /// (s)
+    /// Time of the impact (s).
     pub time: S,
     /// theta' before the impact (rad/s).
     pub rate_before: S,
@@ -90,7 +90,7 @@ pub struct Impact<S> {
 /// A resting body leaves the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Uplift<S> {
-    /// (s)
+    /// Time of the uplift (s).
     pub time: S,
     /// +1 if it leans to the right, -1 if to the left.
     pub side: f64,
@@ -113,17 +113,17 @@ pub enum RockingOutcome {
     /// With vertical motion: the pivot's normal force falls to zero while the body is not falling
     /// over. The history is cut there, for Housner's equation says nothing of what follows.
     LeavesGround {
-        /// (s)
+        /// When it does (s).
         time: f64,
     },
     /// More steps and impacts than [`RockingOptions::max_work`]; the history is cut there.
     WorkBound {
-        /// (s)
+        /// When the bound was met (s).
         time: f64,
     },
     /// The input or the motion is not finite; the history is cut there.
     NotFinite {
-        /// (s)
+        /// Where it is cut (s).
         time: f64,
     },
 }

@@ -10,15 +10,16 @@ use rocking::statistics::{ks_distance, quantile};
 /// Overturning in both models, in records.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Confusion {
-    /// Overturned in both.
+    /// Records that overturn both models.
     pub both: usize,
-    /// In Housner's alone.
+    /// Records that overturn Housner's body alone.
     pub housner_only: usize,
-    /// In the finite elements alone.
+    /// Records that overturn the finite elements alone.
     pub fem_only: usize,
-    /// In none.
+    /// Records that overturn neither.
     pub neither: usize,
-    /// A model failed: neither agreement nor a known disagreement, and counted as the latter.
+    /// Records in which a model failed: neither agreement nor a known disagreement, and counted as
+    /// the latter.
     pub failed: usize,
 }
 
@@ -43,9 +44,10 @@ impl Confusion {
 pub struct Quantiles {
     /// How many records are comparable.
     pub count: usize,
-    /// None if there is no record, or if the quantile falls on a history that failed.
+    /// The median; none if there is no record, or if it falls on a history that failed.
     pub median: Option<f64>,
-    /// 90 % of the records are below it.
+    /// What 90 % of the records are below; none if there is no record, or if it falls on a history
+    /// that failed.
     pub p90: Option<f64>,
 }
 
@@ -71,7 +73,8 @@ pub const PREDICTABLE: f64 = 150.0;
 pub struct GeometricMean {
     /// How many such records the mean is over.
     pub count: usize,
-    /// None if there are none. A body that topples on its springs alone counts with 1 at least.
+    /// The geometric mean; none if there are no such records. A body that topples on its springs
+    /// alone counts with 1 at least.
     pub mean: Option<f64>,
     /// How many more there are in which a history failed.
     pub failed: usize,

@@ -47,25 +47,25 @@ pub enum HistoryOutcome {
     Completed,
     /// The body lay flat (|theta| > pi/2) at this time (s).
     Overturned {
-        /// (s)
+        /// When (s).
         time: f64,
     },
     /// The observer asked to stop at this time (s). No history that a user gets ends so.
     #[doc(hidden)]
     Stopped {
-        /// (s)
+        /// When (s).
         time: f64,
     },
     /// The bound on steps was reached at this time (s).
     WorkBound {
-        /// (s)
+        /// When (s).
         time: f64,
     },
     /// No balance was found at this time (s): soft springs buckle under a body without rotational
     /// inertia, or it leans so far that its foot would have to pull. No motion follows from the
     /// model after that.
     Unstable {
-        /// (s)
+        /// When (s).
         time: f64,
     },
 }

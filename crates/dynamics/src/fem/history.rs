@@ -17,9 +17,9 @@ use rocking::motion::Motion;
 /// since the sample before, since an impact is over long before the next sample.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Forces {
-    /// Positive while the foot presses.
+    /// Vertical force of each foot, positive while it presses (N).
     pub vertical: [Vec<f64>; 2],
-    /// Of the ground on the foot, positive to the right.
+    /// Horizontal force of the ground on each foot, positive to the right (N).
     pub horizontal: [Vec<f64>; 2],
     /// Vertical forces on both corners of the body at one instant, those of dashpots there
     /// included: left plus right, left minus right.
@@ -29,13 +29,13 @@ pub struct Forces {
 /// The energy account at every sample (J).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Account {
-    /// Work of the ground.
+    /// Work that the ground did since the start (J).
     pub input: Vec<f64>,
-    /// Stored above the initial energy.
+    /// Energy stored above the initial one (J).
     pub stored: Vec<f64>,
-    /// Dashpots and released springs.
+    /// Energy that dashpots took and springs let go (J).
     pub dissipated: Vec<f64>,
-    /// What the account leaves unexplained.
+    /// Energy that the account leaves unexplained (J).
     pub residual: Vec<f64>,
 }
 
@@ -53,17 +53,17 @@ impl Account {
 /// A whole history of the finite element model.
 #[derive(Clone, Debug)]
 pub struct History {
-    /// Of the centre of mass.
+    /// Motion of the centre of mass.
     pub motion: Motion,
-    /// Every touch-down.
+    /// Every touch-down, in order of time.
     pub landings: Vec<Landing>,
-    /// At the feet.
+    /// Contact forces of the feet.
     pub forces: Forces,
-    /// Of energy.
+    /// The energy account.
     pub account: Account,
     /// How it ended: of any but `Completed` the vectors above end before the record.
     pub outcome: HistoryOutcome,
-    /// What it cost.
+    /// Steps and iterations that it took.
     pub work: Work,
     /// Largest |residual| over the largest energy of the history.
     pub energy_residual: f64,
