@@ -275,21 +275,33 @@ fn csv(result: &Verification) -> String {
     out
 }
 
+/// A history without its impacts.
+fn trace<'a>(label: &'a str, motion: &'a Motion) -> Trace<'a> {
+    Trace { label, u: &motion.u, v: &motion.v, ..Trace::default() }
+}
+
+/// Housner's body, which has no members: it lies behind those that are compared where they have
+/// some, and where it overturns.
+fn reference<'a>(parameters: &Parameters, motion: &'a Motion) -> Trace<'a> {
+    let bare = !parameters.members().is_none();
+    let alpha = parameters.structure.body::<f64>().alpha();
+    let overturns = motion.theta.iter().any(|theta| theta.abs() > alpha);
+    let label = if bare { "Housner, without members" } else { "Housner" };
+    Trace { behind: bare || overturns, ..trace(label, motion) }
+}
+
 fn draw(
     out: &Path,
     parameters: &Parameters,
     excitation: &Excitation,
     result: &Verification,
 ) -> Result<(), CommandError> {
-    fn trace<'a>(label: &'a str, motion: &'a Motion) -> Trace<'a> {
-        Trace { label, u: &motion.u, v: &motion.v, ..Trace::default() }
-    }
     let n = result.housner.len().max(result.ours.len());
     let t: Vec<f64> = (0..n).map(|i| i as f64 * result.dt).collect();
     let others = [trace("tune simulate", &result.ours), trace("OpenSees", &result.opensees)];
     let of = subtitle(&parameters.structure, &scaled(excitation), parameters.vertical.omega_n_hz);
     let title = format!("The exported model in OpenSees\n{of}");
-    let reference = trace("Housner", &result.housner);
+    let reference = reference(parameters, &result.housner);
     let data =
         HistoryFigure { title: &title, t: &t, reference, others: &others, differences: true };
     Ok(history::draw(&data)?.save(&out.join("verify.png"))?)

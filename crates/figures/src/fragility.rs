@@ -37,6 +37,8 @@ pub struct MeasurePanel {
     pub label: String,
     /// One a structure and limit state.
     pub curves: Vec<FragilityCurve>,
+    /// Words above the panel.
+    pub remark: &'static str,
 }
 
 /// What the figure shows.
@@ -111,6 +113,7 @@ fn one(
         if labelled { data.probability_label } else { "" },
         95.0,
     );
+    panel.remark(canvas, measure.remark);
     for curve in &measure.curves {
         let edge = |p: &[f64]| -> Vec<_> {
             curve.x.iter().zip(p).map(|(x, p)| panel.at_clamped(*x, *p)).collect()

@@ -50,6 +50,8 @@ pub struct Trace<'a> {
     pub end: Option<EventMark<'a>>,
     /// Whether its peaks are told however small beside another's: those of another structure.
     pub answers: bool,
+    /// Whether it only lies behind those that are compared: axes are theirs, and it is cut there.
+    pub behind: bool,
 }
 
 impl<'a> Trace<'a> {
@@ -59,8 +61,11 @@ impl<'a> Trace<'a> {
         Trace { u: of(self.u), v: of(self.v), ..*self }
     }
 
-    /// How many of its samples come before its end.
+    /// How many of its samples come before its end: those that axes are made for.
     fn standing(&self, t: &[f64]) -> usize {
+        if self.behind {
+            return 0;
+        }
         self.end.map_or(self.u.len(), |end| t.partition_point(|t| *t <= end.time)).min(self.u.len())
     }
 }
@@ -115,7 +120,7 @@ pub fn draw(data: &HistoryFigure<'_>) -> Result<Sheet, FigureError> {
     let mut bottom = frame.bottom;
     if data.differences {
         let frame = PanelFrame { top: bottom + 34.0, bottom: bottom + 330.0, ..frame };
-        differences(&mut canvas, data, x, frame);
+        differences(&mut canvas, data, &traces, x, frame);
         bottom = frame.bottom;
     }
     canvas.finish(bottom + 100.0)
@@ -263,13 +268,23 @@ fn vertical(
     canvas.keep(plot);
 }
 
-fn differences(canvas: &mut Canvas, data: &HistoryFigure<'_>, x: Scale, frame: PanelFrame) {
+fn differences(
+    canvas: &mut Canvas,
+    data: &HistoryFigure<'_>,
+    traces: &[Drawn<'_>],
+    x: Scale,
+    frame: PanelFrame,
+) {
     let differences: Vec<Vec<f64>> = data
         .others
         .iter()
         .map(|other| other.u.iter().zip(data.reference.u).map(|(a, b)| (a - b) / 1e-3).collect())
         .collect();
-    let (low, high) = around_zero(differences.iter().flatten().copied());
+    // less what lies behind where that is out of sight
+    let (least, most) = bounds(data.t, traces, |trace| trace.u);
+    let seen = |i: &usize| (least..=most).contains(&data.reference.u[*i]);
+    let told = |all: &Vec<f64>| (0..all.len()).filter(seen).map(|i| all[i]).collect::<Vec<_>>();
+    let (low, high) = around_zero(differences.iter().flat_map(told));
     let size = high - low;
     let panel = Panel { frame, x, y: Scale::linear(low - 0.08 * size, high + 0.08 * size) };
     let label = format!("Δu to {} [mm]", data.reference.label);
@@ -351,3 +366,6 @@ fn tell(canvas: &mut Canvas, panel: &Panel, beyond: &DrawnPeak, peaks: &[&DrawnP
         left += lettering.length(&text) + gap;
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -12,6 +12,8 @@ use super::style::{AXIS, GREY, GRID, LABEL, NUMBER, Pen, SIDES};
 /// Height of a row of words about an event, and size of a remark (pixel).
 pub(crate) const ROW: f64 = 36.0;
 const REMARK: f64 = 23.0;
+/// Size below which no number of an axis is set (pixel).
+const SMALLEST: f64 = 12.0;
 
 /// Where a panel stands on the sheet (pixel).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,6 +89,11 @@ impl Panel {
         let number = Lettering::new(NUMBER);
         let (x_ticks, y_ticks) =
             (self.x.ticks(right - left, 110.0), self.y.ticks(bottom - top, 60.0));
+        // numbers leave room for the label between them and the sheet's edge
+        let length = |text: &str| number.length(text);
+        let longest = y_ticks.iter().map(|tick| tick.label.as_str());
+        let longest = longest.max_by(|a, b| length(a).total_cmp(&length(b))).unwrap_or("");
+        let tick_number = number.fitted(longest, left - 14.0 - 1.7 * LABEL, SMALLEST);
         // Whole pixels and a half: a thin upright line is sharp.
         let sharp = |x: f64| x.round() + 0.5;
         for tick in &x_ticks {
@@ -104,14 +111,14 @@ impl Panel {
                 canvas.line(&[(left, y), (right, y)], grid);
             }
             canvas.line(&[(left - if told { 8.0 } else { 4.0 }, y), (left, y)], axis);
-            canvas.text((left - 14.0, y), &tick.label, number.at(HPos::Right, VPos::Center));
+            canvas.text((left - 14.0, y), &tick.label, tick_number.at(HPos::Right, VPos::Center));
         }
         canvas.line(&[(left, top), (left, bottom), (right, bottom)], axis);
         let label = Lettering::new(LABEL);
-        let longest = y_ticks.iter().map(|tick| number.length(&tick.label)).fold(0.0, f64::max);
-        let gutter = gutter.max(14.0 + longest + LABEL);
+        let gutter = gutter.max(14.0 + tick_number.length(longest) + LABEL);
+        // what stands at the sheet's edge is not cut there
         canvas.text(
-            (left - gutter, (top + bottom) / 2.0),
+            ((left - gutter).max(LABEL), (top + bottom) / 2.0),
             y_label,
             label.upwards().at(HPos::Center, VPos::Center),
         );

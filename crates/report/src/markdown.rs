@@ -174,6 +174,9 @@ pub fn forces_to_design_with(run: &Run) -> Option<Section> {
 pub fn force_value(name: ForceName, force: &DesignForce) -> String {
     let newtons = |x: f64| quantity(x, name.unit());
     let Some(value) = force.value else {
+        if let Some(err) = force.springs_err {
+            return format!("withheld: peaks on springs err by {}", percent(err));
+        }
         return match (force.others.and_then(|others| others.range()), force.change) {
             (Some(range), _) => format!(
                 "withheld: {} with springs and mesh{}",

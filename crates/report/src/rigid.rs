@@ -108,7 +108,10 @@ impl RigidRun {
             row.on_record = on_record;
         }
         let forces = design_forces(kind, &job.body, &job.record, both, softer.as_ref(), *until);
-        parameters.design_forces = Some(forces);
+        // where springs answer, softer ones check forces
+        let checked = parameters.assessment.as_ref().filter(|_| softer.is_none());
+        let err = checked.and_then(|assessment| assessment.missed_peaks());
+        parameters.design_forces = Some(forces.checked_on_springs(err));
         let asked = case.program.is_some();
         let findings = run.findings();
         let row = run.parameters.program.as_mut();

@@ -221,6 +221,9 @@ pub enum Finding {
         /// Of a rigid body: what Housner's equation gives (N or N m).
         #[serde(skip_serializing_if = "Option::is_none")]
         housner: Option<f64>,
+        /// Error of peaks on springs, as a share, where that is so much that they check no force.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        springs_err: Option<f64>,
         /// Of a block, which has no column.
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]
         of_block: bool,

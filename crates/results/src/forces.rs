@@ -9,6 +9,10 @@ use super::{Finding, ForceName, PeakChange};
 /// Share by which a force exceeds the one at rest at most, if the record adds nothing to it.
 const RECORD_ADDS: f64 = 0.01;
 
+/// Error of peaks on springs, as a share, from which on they check no force: one that is nearer is
+/// so by chance.
+const FAR: f64 = 0.1;
+
 /// A largest force, and whether it is the structure's.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct DesignForce {
@@ -57,6 +61,10 @@ pub struct DesignForce {
     /// Of a force that is larger after what can be foretold: what it is, and holds, up to then.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub held: Option<HeldForce>,
+    /// Of a rigid body whose springs are so far from Housner's motions that they check no force:
+    /// error of their peaks, as a share.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub springs_err: Option<f64>,
     /// Whether the motion can be foretold up to `time_s`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub predictable: Option<bool>,
@@ -150,7 +158,25 @@ impl DesignForces {
     /// The same, each marked whether the motion, foretold up to `until` (s), is foretold up to its
     /// largest value; all are where there is no end to that.
     pub fn foretold_to(mut self, until: Option<f64>) -> Self {
-        let all = [
+        for force in self.each() {
+            force.predictable = Some(until.is_none_or(|until| force.time_s <= until));
+        }
+        self
+    }
+
+    /// Those of Housner's body, where peaks err by this share on the springs that check them: from
+    /// a tenth on none holds but what the structure bears at rest.
+    pub fn checked_on_springs(mut self, err: Option<f64>) -> Self {
+        let Some(err) = err.filter(|err| *err > FAR) else { return self };
+        for force in self.each().filter(|force| !force.is_at_rest()) {
+            let springs_err = Some(err);
+            *force = DesignForce { value: None, holds: false, held: None, springs_err, ..*force };
+        }
+        self
+    }
+
+    fn each(&mut self) -> impl Iterator<Item = &mut DesignForce> {
+        [
             &mut self.column_shear_n,
             &mut self.column_base_moment_nm,
             &mut self.column_top_moment_nm,
@@ -161,11 +187,9 @@ impl DesignForces {
             &mut self.sole_vertical_n,
             &mut self.tendon_n,
             &mut self.damper_n,
-        ];
-        for force in all.into_iter().flatten() {
-            force.predictable = Some(until.is_none_or(|until| force.time_s <= until));
-        }
-        self
+        ]
+        .into_iter()
+        .flatten()
     }
 
     /// Every force that applies, with its name.
@@ -232,6 +256,7 @@ impl DesignForces {
             change: force.change,
             // those of elastic structures have a raw one beside them
             housner: force.rigid.filter(|_| force.raw.is_none()),
+            springs_err: force.springs_err,
             of_block: self.column_base_moment_nm.is_some() && self.sole_shear_n.is_none(),
         })
     }
@@ -279,11 +304,41 @@ mod tests {
                 force: ForceName::Axial,
                 change: Some(0.051),
                 housner: None,
+                springs_err: None,
                 of_block: false
             }]
         );
         let json = serde_json::to_value(all).unwrap();
         assert_eq!(json["column_shear_n"]["value"], 1e6);
         assert!(json["axial_n"]["value"].is_null() && json.get("sole_shear_n").is_none());
+    }
+
+    /// A force that is as large on springs that move 72 % more is so by chance; what is borne at
+    /// rest no springs move.
+    #[test]
+    fn springs_that_do_not_follow_the_reference_check_no_force() {
+        let near =
+            DesignForce { rigid: Some(1e6), ..DesignForce::measured(1e6, 2.0, Some(0.0498)) };
+        let rests = DesignForce { at_rest: Some(-3e6), ..near };
+        let rests = DesignForce { value: Some(-3e6), ..rests };
+        let all = DesignForces {
+            column_shear_n: Some(near),
+            axial_n: Some(rests),
+            ..DesignForces::default()
+        };
+        for followed in [None, Some(0.09)] {
+            assert_eq!(all.checked_on_springs(followed), all);
+        }
+        let err = 0.72;
+        let found = all.checked_on_springs(Some(err));
+        let shear = found.column_shear_n.unwrap();
+        assert_eq!((shear.value, shear.holds, shear.rigid), (None, false, Some(1e6)));
+        assert_eq!(found.axial_n, all.axial_n);
+        let withheld: Vec<_> = found.withheld().collect();
+        assert!(matches!(
+            withheld[..],
+            [Finding::ForceWithheld { springs_err: Some(x), housner: Some(1e6), .. }] if x == err
+        ));
+        assert_eq!(serde_json::to_value(found).unwrap()["column_shear_n"]["springs_err"], err);
     }
 }

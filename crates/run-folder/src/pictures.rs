@@ -156,6 +156,7 @@ impl Pictures<'_> {
             impacts: &impacts_housner,
             end: event(&end),
             answers: false,
+            behind: false,
         };
         let other = figures::history::Trace {
             label: &self.with_members("finite elements on ground springs"),
@@ -164,6 +165,7 @@ impl Pictures<'_> {
             impacts: &impacts_fem,
             end: event(&fall),
             answers: self.both.with.is_some(),
+            behind: false,
         };
         let title = self.title(what);
         let data = figures::history::HistoryFigure {

@@ -86,6 +86,13 @@ impl Assessment {
         }
     }
 
+    /// Error of peaks of springs that miss what was asked for: on the record, or the median over
+    /// synthetic motions where it does not judge them.
+    pub fn missed_peaks(&self) -> Option<f64> {
+        let of = self.measured_peaks.filter(|_| !self.reached)?.largest;
+        of.record.or(of.synthetic_median.map(|of| of.value))
+    }
+
     /// What was measured by the yardstick of what was asked for.
     #[doc(hidden)]
     pub fn judged(&self) -> &Accuracy {
@@ -175,6 +182,7 @@ fn limit(job: &Job) -> Option<LimitRow> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::suite::Statistic;
 
     #[test]
     fn what_decided_on_omega_n_is_what_is_nearest_to_its_limit() {
@@ -211,5 +219,36 @@ mod tests {
         assert!(said(1e-5, 1.8e5).contains("landings, from 0.02 alpha"));
         assert!(said(1e-5, 1.6e5).starts_with("the best of those tried"));
         assert!(said(1.5e-3, 1e6).starts_with("the best of those tried"));
+    }
+
+    /// Of springs that are good enough nothing; of others the record's error counts, for it is the
+    /// record's forces that they are to check.
+    #[test]
+    fn peaks_are_missed_by_springs_that_miss_what_was_asked() {
+        let median = Statistic { value: 1.08, count: 24 };
+        let of = |reached: bool, record: Option<f64>| {
+            let largest =
+                Accuracy { record, synthetic_median: Some(median), ..Accuracy::default() };
+            let peaks = PeakAccuracy {
+                largest,
+                record: None,
+                synthetic_median: None,
+                earthquakes_mean: None,
+            };
+            let assessment = Assessment {
+                objective: Objective::Landing,
+                judged_by: Yardstick::Histories,
+                accuracy: 2e-3,
+                reached,
+                capped: false,
+                measured: Accuracy::default(),
+                measured_peaks: Some(peaks),
+                landing: None,
+            };
+            assessment.missed_peaks()
+        };
+        assert_eq!(of(false, None), Some(1.08));
+        assert_eq!(of(false, Some(0.03)), Some(0.03));
+        assert_eq!(of(true, Some(0.2)), None);
     }
 }

@@ -1,15 +1,14 @@
 //! The figures of a sweep, from its tables.
 
+mod fragility;
+
 use std::path::Path;
 
 use super::super::CommandError;
-use figures::{
-    fragility as probability, ida as levels, overturning as spectra, peaks, rocking as maps,
-};
+use figures::{ida as levels, overturning as spectra, peaks, rocking as maps};
 use rocking::structure::Kind;
 use sweep::{
     compare::Comparison,
-    fragility::{Fragility, FragilityRow, LimitState, MEASURES},
     ida::{Ida, IdaPoint},
     motion::SweepMotion,
     plan::{Measure, Plan},
@@ -17,106 +16,10 @@ use sweep::{
 };
 use sweep_table::SweepTable;
 
+pub use fragility::fragility;
+
 /// Panels beyond which a figure is no figure.
 const PANELS: usize = 6;
-/// Points of a curve, and of what was observed.
-const POINTS: usize = 120;
-const OBSERVED: usize = 24;
-
-/// Both figures: all states for all structures together, and overturning structure by structure.
-pub fn fragility(plan: &Plan, fragility: &Fragility, path: &Path) -> Result<(), CommandError> {
-    let states = LimitState::all(plan);
-    let several = plan.subjects.len() > 1;
-    let (first, half_width) = (fragility.members[0].model, fragility.half_width());
-    let of = |row: &FragilityRow| &fragility.members[row.member];
-    let main = |row: &FragilityRow| {
-        let member = of(row);
-        member.model == first && member.restitution == 0 && member.subject.is_none() == several
-    };
-    let curve = |row: &FragilityRow, entry: usize| {
-        let observed = fragility.observed(row, &states, OBSERVED);
-        curve(row, entry, half_width, observed)
-    };
-    let model = if MODELS[first] == "fem" { "finite elements" } else { "Housner" };
-    let e = restitution_shown(plan);
-    let who = if several {
-        format!("all {} structures", plan.subjects.len())
-    } else {
-        plan.subjects[0].name.clone()
-    };
-    let names: Vec<String> =
-        states.iter().map(|state| state.name().replace("theta/alpha", "|θ|/α")).collect();
-    // curves of the rows for which there is an entry of the legend, a panel a measure
-    let save = |what: String,
-                names: &[String],
-                entry: &dyn Fn(&FragilityRow) -> Option<usize>,
-                path: &Path| {
-        let rows = |index: usize| fragility.rows.iter().filter(move |row| row.measure == index);
-        let curves = |index: usize| rows(index).filter_map(|row| curve(row, entry(row)?)).collect();
-        let measures: Vec<probability::MeasurePanel> = (0..MEASURES.len())
-            .map(|index| probability::MeasurePanel {
-                label: measure_label(index),
-                curves: curves(index),
-            })
-            .filter(|measure| !measure.curves.is_empty())
-            .collect();
-        if measures.is_empty() {
-            return Ok::<_, CommandError>(());
-        }
-        let drawn = |entry: usize| {
-            measures.iter().any(|measure| measure.curves.iter().any(|curve| curve.entry == entry))
-        };
-        let named = |(entry, name): (usize, &String)| match drawn(entry) {
-            true => name.clone(),
-            false => format!("{name}: no fit"),
-        };
-        let names: Vec<String> = names.iter().enumerate().map(named).collect();
-        let title = format!("{what}, {}, {model}{e}", motions(plan));
-        let label = probability_label(fragility);
-        let data = probability::FragilityFigure {
-            title: &title,
-            entries: &names,
-            measures: &measures,
-            probability_label: &label,
-        };
-        Ok(probability::draw(&data)?.save(path)?)
-    };
-    let state =
-        |row: &FragilityRow| states.iter().position(|state| main(row) && *state == row.state);
-    save(format!("Fragility, {who}"), &names, &state, path)?;
-    if !several {
-        return Ok(());
-    }
-    let shown = plan.subjects.len().min(PANELS);
-    let names: Vec<String> =
-        plan.subjects.iter().take(shown).map(|subject| subject.name.clone()).collect();
-    let alone = |row: &FragilityRow| {
-        let member = of(row);
-        let overturning = row.state == LimitState::Overturning
-            && member.model == first
-            && member.restitution == 0;
-        member.subject.filter(|subject| overturning && *subject < shown)
-    };
-    let each = path.with_file_name("fragility_structures.png");
-    save(overturning_of(shown, plan), &names, &alone, &each)?;
-    Ok(())
-}
-
-/// A measure of intensity with its unit.
-fn measure_label(index: usize) -> String {
-    let (name, unit) = MEASURES[index];
-    let unit = if unit == "-" { String::new() } else { format!(" [{unit}]") };
-    format!("{}{unit}", name.replace("alpha", "α"))
-}
-
-/// The structures whose overturning a figure shows.
-fn overturning_of(shown: usize, plan: &Plan) -> String {
-    match plan.subjects.len() {
-        all if all > shown => format!("Overturning of {shown} of {all} structures"),
-        _ => "Overturning of each structure".to_string(),
-    }
-}
-
 /// How many structures a figure shows, where these are not all.
 fn of_structures(shown: usize, plan: &Plan) -> String {
     match plan.subjects.len() {
@@ -145,49 +48,6 @@ fn restitution_shown(plan: &Plan) -> String {
         Some([first, _, ..]) => format!(", e = {first}"),
         _ => String::new(),
     }
-}
-
-/// What a fit shows; there are no bounds of one record, nor of records that do not differ.
-fn probability_label(fragility: &Fragility) -> String {
-    match fragility.rows.iter().any(|row| row.covariance.is_some()) {
-        true => format!("probability, {:.0} % bounds", 100.0 * fragility.confidence),
-        false => "probability, without bounds".into(),
-    }
-}
-
-/// Beyond what was computed a fit is not drawn by more than this factor.
-const BEYOND: f64 = 1.5;
-
-/// From 0.2 % to 99.8 % of a fit.
-fn curve(
-    row: &FragilityRow,
-    entry: usize,
-    half_width: f64,
-    observed: Vec<(f64, f64)>,
-) -> Option<probability::FragilityCurve> {
-    use sweep::lognormal::phi;
-    let fit = row.probit()?;
-    let x: Vec<f64> = (0..POINTS)
-        .map(|i| {
-            fit.median() * (fit.beta() * 2.9 * (2.0 * i as f64 / (POINTS - 1) as f64 - 1.0)).exp()
-        })
-        .filter(|x| (row.range.0 / BEYOND..=row.range.1 * BEYOND).contains(x))
-        .collect();
-    if x.len() < 2 {
-        return None;
-    }
-    let deviation = |x: f64| row.covariance.map_or(0.0, |all| fit.deviation_at(all, x));
-    let at = |side: f64| -> Vec<f64> {
-        x.iter().map(|x| phi(fit.a + fit.b * x.ln() + side * half_width * deviation(*x))).collect()
-    };
-    Some(probability::FragilityCurve {
-        entry,
-        probability: at(0.0),
-        low: at(-1.0),
-        high: at(1.0),
-        observed,
-        x,
-    })
 }
 
 fn level_label(plan: &Plan) -> &'static str {

@@ -13,7 +13,8 @@ const QUIET: f64 = 0.8;
 /// come to rest, or ended, and a margin.
 pub(super) fn shown(data: &HistoryFigure<'_>) -> usize {
     let all = data.t.len();
-    let traces = || std::iter::once(&data.reference).chain(data.others);
+    let compared = |trace: &&Trace| !trace.behind;
+    let traces = || std::iter::once(&data.reference).chain(data.others).filter(compared);
     let largest = traces().flat_map(|trace| trace.u).fold(0.0_f64, |most, u| most.max(u.abs()));
     let moves = |trace: &Trace| {
         let rest = trace.u.last().copied().unwrap_or(0.0);

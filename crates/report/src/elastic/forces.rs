@@ -31,6 +31,7 @@ pub fn design_forces(structure: &ElasticStructure, of: &StructureForces) -> Desi
             fixed: force.fixed.map(|peak| peak.value).filter(|value| *value != 0.0),
             rigid: force.rigid.map(|peak| peak.value),
             at_rest: None,
+            springs_err: None,
             together: force.together.map(|with| ForcesTogether {
                 apex_moment_nm: leg.map(|leg| with.column_shear_n * leg),
                 ..with

@@ -43,8 +43,10 @@ pub(super) fn lines(run: &Run, tight: bool) -> Vec<String> {
     let alone = alone.map(|end| format!("springs alone after {} s", significant(end, 3)));
     let rest = forces.all().any(|(_, force)| force.is_at_rest());
     let rest = rest.then(|| "own weight: no thrust".to_string());
+    let far = forces.all().find_map(|(_, force)| force.springs_err);
+    let far = far.map(|err| format!("withheld: peaks on springs err by {}", percent(err)));
     let notes: Vec<String> =
-        changes(run, forces).into_iter().chain(alone).chain(doubt).chain(rest).collect();
+        changes(run, forces).into_iter().chain(far).chain(alone).chain(doubt).chain(rest).collect();
     let notes = if notes.is_empty() { String::new() } else { format!(" ({})", notes.join("; ")) };
     let head = format!("design forces{}{notes}", which(run, forces));
     // what goes first where it is too long
@@ -185,7 +187,9 @@ fn value(name: ForceName, force: &DesignForce, mark: &str, told: Told) -> String
 
 /// Why a force is withheld.
 fn varies(force: &DesignForce) -> String {
-    force.change.map_or(String::new(), |change| format!(" (varies {})", percent(change)))
+    // the head tells of springs that check none
+    let change = force.change.filter(|_| force.springs_err.is_none());
+    change.map_or(String::new(), |change| format!(" (varies {})", percent(change)))
 }
 
 /// Two cells to a line, names and values below each other; none if a line would be too long.

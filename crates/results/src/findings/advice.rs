@@ -116,6 +116,10 @@ impl Finding {
     /// Of forces that do not hold, or not of all.
     fn remedy_of_forces(&self) -> Option<String> {
         let text = match self {
+            Self::ForceWithheld { springs_err: Some(_), .. } => {
+                "first take springs that follow Housner (see the accuracy), or forces of another \
+                    kind of model"
+            }
             Self::ForceWithheld { housner: Some(_), .. } => {
                 "design for the larger, or take stiffer springs: --accuracy"
             }
@@ -205,6 +209,9 @@ impl Finding {
             }
             Self::HistoryEndsEarly { .. } | Self::NoAnswer { .. } => {
                 "Both models are compared up to there."
+            }
+            Self::ForceWithheld { springs_err: Some(_), .. } => {
+                "A force that agrees on springs with another motion does so by chance."
             }
             Self::ForceWithheld { .. } => {
                 "A force that grows with the springs or the mesh is the model's, not the \

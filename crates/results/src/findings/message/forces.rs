@@ -18,9 +18,25 @@ impl Finding {
         Some(match self {
             Self::ForceWithheld {
                 force,
+                springs_err: Some(err),
+                housner: Some(housner),
+                of_block,
+                ..
+            } => {
+                let words = if *of_block { force.words_of_block() } else { force.words() };
+                format!(
+                    "{words} is withheld: peaks on these springs err by {}, so that they do not \
+                        check Housner's {}",
+                    percent(*err),
+                    quantity(housner.abs(), force.unit())
+                )
+            }
+            Self::ForceWithheld {
+                force,
                 change: Some(change),
                 housner: Some(housner),
                 of_block,
+                ..
             } => {
                 let words = if *of_block { force.words_of_block() } else { force.words() };
                 format!(
