@@ -302,7 +302,8 @@ fn draw(
     let of = subtitle(&parameters.structure, &scaled(excitation), parameters.vertical.omega_n_hz);
     let title = format!("The exported model in OpenSees\n{of}");
     let reference = reference(parameters, &result.housner);
-    let data =
-        HistoryFigure { title: &title, t: &t, reference, others: &others, differences: true };
+    // those to another structure tell nothing
+    let differences = !reference.behind;
+    let data = HistoryFigure { title: &title, t: &t, reference, others: &others, differences };
     Ok(history::draw(&data)?.save(&out.join("verify.png"))?)
 }

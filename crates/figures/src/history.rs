@@ -120,7 +120,7 @@ pub fn draw(data: &HistoryFigure<'_>) -> Result<Sheet, FigureError> {
     let mut bottom = frame.bottom;
     if data.differences {
         let frame = PanelFrame { top: bottom + 34.0, bottom: bottom + 330.0, ..frame };
-        differences(&mut canvas, data, &traces, x, frame);
+        differences(&mut canvas, data, x, frame);
         bottom = frame.bottom;
     }
     canvas.finish(bottom + 100.0)
@@ -268,23 +268,13 @@ fn vertical(
     canvas.keep(plot);
 }
 
-fn differences(
-    canvas: &mut Canvas,
-    data: &HistoryFigure<'_>,
-    traces: &[Drawn<'_>],
-    x: Scale,
-    frame: PanelFrame,
-) {
+fn differences(canvas: &mut Canvas, data: &HistoryFigure<'_>, x: Scale, frame: PanelFrame) {
     let differences: Vec<Vec<f64>> = data
         .others
         .iter()
         .map(|other| other.u.iter().zip(data.reference.u).map(|(a, b)| (a - b) / 1e-3).collect())
         .collect();
-    // less what lies behind where that is out of sight
-    let (least, most) = bounds(data.t, traces, |trace| trace.u);
-    let seen = |i: &usize| (least..=most).contains(&data.reference.u[*i]);
-    let told = |all: &Vec<f64>| (0..all.len()).filter(seen).map(|i| all[i]).collect::<Vec<_>>();
-    let (low, high) = around_zero(differences.iter().flat_map(told));
+    let (low, high) = around_zero(differences.iter().flatten().copied());
     let size = high - low;
     let panel = Panel { frame, x, y: Scale::linear(low - 0.08 * size, high + 0.08 * size) };
     let label = format!("Δu to {} [mm]", data.reference.label);
