@@ -72,7 +72,7 @@ fn a_block_that_slides_is_newmarks() {
 }
 
 /// Stout blocks that slide by decimetres are followed to the end of the record, and slide as a
-/// block on a plane: springs are no stiffer than the digits of a place allow.
+/// block on a plane.
 #[test]
 fn blocks_that_slide_far_are_newmarks_to_the_end() {
     for (height, width, friction, scale) in

@@ -4,7 +4,6 @@
 mod error;
 mod landing_design;
 mod procedure;
-mod sliding;
 
 use std::f64::consts::TAU;
 

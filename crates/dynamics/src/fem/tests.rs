@@ -5,6 +5,7 @@ mod forces;
 mod friction;
 mod integrator;
 mod motions;
+mod sliding;
 mod statics;
 
 use std::f64::consts::TAU;

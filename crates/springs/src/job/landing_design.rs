@@ -3,7 +3,7 @@
 
 use std::{cmp::Ordering, f64::consts::TAU};
 
-use super::{CEILING_HZ, JobError, Procedure, evaluate, sliding};
+use super::{CEILING_HZ, JobError, Procedure, evaluate};
 use crate::{
     SearchProgress, at_once, capped_springs,
     ladder::RungProgress,
@@ -15,7 +15,7 @@ use crate::{
 use cases::{Case, Yardstick};
 use dynamics::{effort::Effort, fem::Control};
 use landing::design::{Geometry, springs_at_stiffness};
-use rocking::{members::Friction, structure::Body};
+use rocking::structure::Body;
 
 /// Omega_n of springs that are to have another restitution than equation 2's, where no cap is given
 /// (Hz): they must bounce, and gravity bring them back.
@@ -47,9 +47,7 @@ impl LandingDesign<'_> {
             progress(rungs, 0, over * stiffness_search::MARGIN * asked.error)
         };
         let ladder = |stiffest: f64, springs: DesignOf| self.ladder(stiffest, springs, &said);
-        let given = tuning.max_omega_hz.is_some();
-        let caps = [tuning.max_omega_hz, self.sliding_cap()].into_iter().flatten();
-        let Some(cap) = caps.reduce(f64::min) else {
+        let Some(cap) = tuning.max_omega_hz else {
             let stiffest = stiffness_search::last_rung(TAU * CEILING_HZ / p);
             self.settles_at(stiffest)?;
             return ladder(stiffest, &springs)
@@ -82,13 +80,7 @@ impl LandingDesign<'_> {
         }
         let typical = |tuned: &Tuned| typical(tuned, asked.by);
         let best = found.into_iter().min_by(|a, b| typical(a).total_cmp(&typical(b)));
-        Ok((best.ok_or(JobError::NoCandidate)?, given))
-    }
-
-    /// Omega_n of horizontal springs of feet that slide on the record, at most (Hz).
-    fn sliding_cap(&self) -> Option<f64> {
-        let Friction { coefficient, .. } = self.case.members.friction?;
-        Some(sliding::cap(&self.case.record, coefficient))
+        Ok((best.ok_or(JobError::NoCandidate)?, true))
     }
 
     /// Springs of a restitution that is not equation 2's, within the cap; whether it was given.

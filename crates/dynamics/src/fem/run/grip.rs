@@ -8,7 +8,7 @@
 
 use super::TimeLoop;
 use crate::fem::{
-    model::{Contact, Foot, State},
+    model::{Contact, Foot, State, TH, X, Z},
     observer::Observer,
     step::Stages,
     strut::Strut,
@@ -19,6 +19,9 @@ use rocking::scalar::GRAVITY;
 /// share of g/Omega_n by which a slipping foot may turn back: a foot on the edge of slipping must
 /// not change its mind within rounding.
 const HESITATION: f64 = 1e-6;
+/// Rounding of a foot's place, in units of `f64::EPSILON` of what it is the sum of: of the place,
+/// of its anchor, and of the iteration that finds them.
+const ROUNDED: f64 = 4.0;
 /// Steps tried to locate the change.
 const MOST_TRIALS: usize = 40;
 
@@ -36,14 +39,27 @@ impl TimeLoop<'_> {
             Contact::Open | Contact::Slide => None,
             Contact::Stick => {
                 let f = &self.model.contact(&state.q, &self.feet)[foot];
-                let weight = self.model.body.mass * GRAVITY;
-                Some((mu * f.vertical - f.horizontal.abs()) / (HESITATION * mu * weight))
+                let hesitation = self.force_hesitation(state);
+                Some((mu * f.vertical - f.horizontal.abs()) / hesitation)
             }
             Contact::Slip(side) => {
                 let rate = self.model.slip_rate(foot, &state.q, &state.v, side);
                 Some(side * rate / (HESITATION * GRAVITY * self.settling))
             }
         }
+    }
+
+    /// By how much the force of a holding foot may exceed its limit (N): what rounding makes of it,
+    /// at least. On stiff springs far from where the body stood, the last digit of its place is
+    /// above that share of the limit, and a foot that has just come to hold would slip
+    /// again at once, and hold again, without end.
+    fn force_hesitation(&self, State { q, .. }: &State) -> f64 {
+        let (mu, body) = (self.model.law.coefficient(), &self.model.body);
+        let turned = q[TH].abs() * body.radius();
+        let rounded = |k: f64, place: f64| ROUNDED * f64::EPSILON * k * (place + turned);
+        let across = rounded(self.model.springs.horizontal.k1, q[X].abs());
+        let upwards = rounded(self.model.springs.vertical.k1, q[Z].abs());
+        (HESITATION * mu * body.mass * GRAVITY).max(across + mu * upwards)
     }
 
     /// Where in the step (0 to 1) a foot first changes between holding and slipping, roughly.

@@ -19,7 +19,7 @@ use strong_motion::Record;
 
 const MU: f64 = 0.25;
 
-fn members(coefficient: f64) -> Members {
+pub(super) fn members(coefficient: f64) -> Members {
     Members { friction: Some(Friction { coefficient }), ..Members::default() }
 }
 
@@ -43,7 +43,7 @@ fn run(body: Body<f64>, coefficient: f64, dt: f64, accel: &[f64]) -> History {
 }
 
 /// A solid block, its centre of mass at `height`.
-fn block(height: f64, width: f64) -> Body<f64> {
+pub(super) fn block(height: f64, width: f64) -> Body<f64> {
     let (mass, half_width) = (1000.0, 0.5 * width);
     Body {
         mass,
