@@ -65,6 +65,7 @@ def rigid(case):
         INERTIA=inertia,
         LEG=LEG * max(vertical[0], horizontal[0]),
         DAMPER_C=0.0,
+        DAMPER_ALOFT=0.0,
         TENDON_K=0.0,
         TENDON_SLACK=0.0,
         TOLERANCE=case["tolerance"],

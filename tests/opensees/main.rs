@@ -271,6 +271,17 @@ fn dampers_on_stiff_springs_agree() {
     agrees_on(frame, springs, damped, 10.0);
 }
 
+/// Strong dampers on a small frame: in the air they would stop its little inertia within 10 ms, and
+/// make a hop of the slightest rebound.
+#[test]
+#[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
+fn strong_dampers_on_stiff_springs_agree() {
+    let frame = Structure::a_frame(9.0, 1.8, 450e3).unwrap();
+    let tendon = Some(Tendon { stiffness: 8e7, pretension: 5e5 });
+    let members = Members { damper: Some(Damper { c: 3e6 }), tendon, friction: None };
+    agrees_on(frame, tuned(frame, Objective::Landing, 1e6), members, 10.0);
+}
+
 #[test]
 #[ignore = "needs OpenSees, which cargo cannot install; .ci/run installs it and runs this"]
 fn a_post_tensioned_tendon_agrees() {

@@ -43,6 +43,7 @@ C_H = @C_H@
 M2_H = @M2_H@
 
 DAMPER_C = @DAMPER_C@          # dashpot between the ground and each corner of the body, N s/m; 0: none
+DAMPER_ALOFT = @DAMPER_ALOFT@      # dashpot on the mass in their place while no foot is on the ground, N s/m; 0: they stay
 TENDON_K = @TENDON_K@          # from the mass to the ground between the feet, N/m; 0: none
 TENDON_SLACK = @TENDON_SLACK@  # its length without tension, m
 
@@ -123,6 +124,12 @@ def build():
             ops.uniaxialMaterial("Elastic", 70 + foot, 0.0, DAMPER_C)
             ops.element("zeroLength", 70 + foot, ground, arm, "-mat", 70 + foot, "-dir", 2)
 
+    if DAMPER_ALOFT > 0.0:
+        ops.node(5, 0.0, HEIGHT)
+        ops.fix(5, 1, 1, 1)
+        ops.uniaxialMaterial("Elastic", 79, 0.0, 0.0)
+        ops.element("zeroLength", 79, 5, TOP, "-mat", 79, "-dir", 2)
+
     if TENDON_K > 0.0:
         ops.node(4, 0.0, 0.0)
         # A beam that can hardly bend: a corotTruss does not turn with the body in every build of OpenSees.
@@ -140,6 +147,14 @@ def build():
 
 
 @ROUTINE@
+
+
+def aloft(flies):
+    """Dampers of a body with next to no rotational inertia turn it while a foot is on the ground, and hold but its mass while
+    none is: there they would stop its rotation at once, and make a hop of the slightest rebound, in which it moves along."""
+    for foot, _ in FEET:
+        ops.setParameter("-val", 0.0 if flies else DAMPER_C, "-ele", 70 + foot, "eta")
+    ops.setParameter("-val", DAMPER_ALOFT if flies else 0.0, "-ele", 79, "eta")
 
 
 COLUMNS = ("u", "v", "th")
@@ -163,7 +178,8 @@ def run(accuracy):
         u, v, turn = (ops.nodeDisp(TOP, k) for k in (1, 2, 3))
         return u, v - settled, -turn  # OpenSees turns counter-clockwise
 
-    rows, steps = follow([(foot, foot + ABSORBER) for foot, _ in FEET], accuracy, sample)
+    feet = [(foot, foot + ABSORBER) for foot, _ in FEET]
+    rows, steps = follow(feet, accuracy, sample, aloft if DAMPER_ALOFT > 0.0 else None)
     return rows, settled, steps
 
 

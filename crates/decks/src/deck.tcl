@@ -29,6 +29,7 @@ set ch  @C_H@
 set m2h @M2_H@
 
 set damperC @DAMPER_C@ ;# dashpot between the ground and each corner of the body, N s/m; 0: none
+set damperAloft @DAMPER_ALOFT@ ;# dashpot on the mass in their place while no foot is on the ground, N s/m; 0: they stay
 set tendonK @TENDON_K@ ;# from the mass to the ground between the feet, N/m; 0: none
 set tendonSlack @TENDON_SLACK@ ;# its length without tension, m
 
@@ -102,6 +103,12 @@ proc build {} {
                 element zeroLength [expr {$foot + 70}] $ground $arm -mat [expr {$foot + 70}] -dir 2
             }
         }
+        if {$damperAloft > 0.0} {
+            node 5 0.0 $height
+            fix 5 1 1 1
+            uniaxialMaterial Elastic 79 0.0 0.0
+            element zeroLength 79 5 3 -mat 79 -dir 2
+        }
         if {$tendonK > 0.0} {
             node 4 0.0 0.0
             # A beam that can hardly bend: a corotTruss does not turn with the body in every build of OpenSees.
@@ -121,6 +128,15 @@ proc build {} {
 
 # ---------------------------------------------------------------- steps
 @ROUTINE@
+
+# Dampers of a body with next to no rotational inertia turn it while a foot is on the ground, and hold but its mass while none
+# is: there they would stop its rotation at once, and make a hop of the slightest rebound, in which it moves along.
+proc aloft {flies} {
+    global damperC damperAloft
+    foreach foot {1 2} { setParameter -val [expr {$flies ? 0.0 : $damperC}] -ele [expr {$foot + 70}] eta }
+    setParameter -val [expr {$flies ? $damperAloft : 0.0}] -ele 79 eta
+}
+if {$damperAloft > 0.0} { set steps::aloft aloft }
 
 set columns {u v th}
 

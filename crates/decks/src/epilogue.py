@@ -1,8 +1,9 @@
-def follow(feet, accuracy, sample):
+def follow(feet, accuracy, sample, aloft=None):
     """The motion through the record, or as far as steps converge: rows of t and what `sample` tells, and the steps."""
     # TRBDF2 is L-stable: Newmark (1/2, 1/4) and HHT fail on springs this stiff, Newmark with damping spoils the answer.
     analysis("TRBDF2")
     steps = Steps(feet, LANDING, RECORD_DT / STEPS_PER_SAMPLE, RISE, accuracy)
+    steps.aloft = aloft
     before = now = [0.0, *sample()]
     rows = [now]
     for i in range(1, SAMPLES):

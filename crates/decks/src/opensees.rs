@@ -58,6 +58,7 @@ fn fill(language: &Language, template: &str, model: &DeckModel) -> Result<String
             "FRICTION",
             digits(model.members.friction.map_or(HOLDS, |Friction { coefficient }| coefficient)),
         ),
+        ("DAMPER_ALOFT", digits(model.damper_aloft())),
         ("TENDON_K", digits(model.members.tendon.map_or(0.0, |t| t.stiffness))),
         ("TENDON_SLACK", digits(model.slack())),
         ("LEG_RATIO", LEG_STIFFNESS.to_string()),

@@ -16,6 +16,7 @@ class Steps:
     longest   step, s; steps end where `advance` is told to, which should be every sample of the record
     rise      of a foot, m, from which on its motion counts: errors are relative to the highest rise so far, at least this
     accuracy  wanted of the history (its normalised error); that of the steps stays below a quarter of it
+    aloft     to be set where a model changes in the air: called with True once no foot is on the ground, with False after
 
     taken     steps so far
     refused   pairs that Newton's iteration gave up: repeated shorter
@@ -52,6 +53,7 @@ class Steps:
         self.gaps = self.measure()
         self.taken = self.refused = self.late = 0
         self.last = self.shortest
+        self.aloft, self.flies = None, False
         self.smallest = math.inf
 
     def measure(self):
@@ -119,6 +121,9 @@ class Steps:
             self.taken += 1
             self.gaps = self.measure()
             states.append(self.gaps)
+            if self.aloft and self.flies != all(gap[0] > 0.0 for gap in self.gaps):
+                self.flies = not self.flies
+                self.aloft(self.flies)
             changed = [(was, gap[0]) for was, gap in zip(before, self.gaps) if (was <= 0.0) != (gap[0] <= 0.0)]
             met += len(changed)
             # A foot that rounding alone holds down lifts unseen.

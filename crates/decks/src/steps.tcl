@@ -34,11 +34,15 @@ namespace eval steps {
     # What rounding leaves of a gap, over the farthest coordinate.
     variable roundingShare [expr {pow(2.0, -54)}]
 
+    # To be set where a model changes in the air: a command that is given 1 once no foot is on the ground, 0 after.
+    variable aloft ""
+
     proc start {nodes aLanding aLongest rise {anAccuracy 0.002}} {
         foreach name {feet longest landing accuracy first shortest share allowed strongest highest blur gaps taken refused late
-            smallest rounding last} {
+            smallest rounding last flies} {
             variable $name
         }
+        set flies 0
         variable start
         variable roundingShare
         set fine [expr {min(1.0, sqrt($anAccuracy / 0.002))}] ;# steps err with their square
@@ -144,7 +148,7 @@ namespace eval steps {
 
     # Two steps of h, at most `size`: TRBDF2 takes one by BDF2 only if it is as long as the one before, to the last digit.
     proc pair {h size} {
-        foreach name {gaps refused allowed shortest taken smallest late highest blur share rounding last} { variable $name }
+        foreach name {gaps refused allowed shortest taken smallest late highest blur share rounding last aloft flies} { variable $name }
         set states [list $gaps]
         set met 0
         set far 0
@@ -160,6 +164,13 @@ namespace eval steps {
             incr taken
             set gaps [measure]
             lappend states $gaps
+            if {$aloft ne ""} {
+                set lowest [tcl::mathfunc::min {*}[lmap gap $gaps { lindex $gap 0 }]]
+                if {$flies != ($lowest > 0.0)} {
+                    set flies [expr {!$flies}]
+                    $aloft $flies
+                }
+            }
             foreach a $before b $gaps {
                 set was [lindex $a 0]
                 if {($was <= 0.0) != ([lindex $b 0] <= 0.0)} {

@@ -110,6 +110,30 @@ fn a_deck_has_the_rotational_inertia_that_its_body_needs() {
     }
 }
 
+/// In the air dampers hold the mass of a body whose rotation our own history takes to be massless,
+/// both at once; where it has inertia they stay at its corners.
+#[test]
+fn dampers_of_a_massless_rotation_hold_the_mass_in_the_air() {
+    let m_r2 = 680.1e3 * (61.0 * 61.0 + 6.1 * 6.1);
+    let record = Record::el_centro();
+    for (share, c, aloft) in [(0.0, 1e6, 2e6), (1e-3, 3e6, 6e6), (3e-3, 1e6, 0.0), (0.0, 0.0, 0.0)]
+    {
+        let structure = Structure { rotational_inertia_kgm2: share * m_r2, ..Structure::paper() };
+        let members = Members { damper: (c > 0.0).then_some(Damper { c }), ..Members::default() };
+        let parameters = Parameters::new(structure, &Springs::table_1()).with_members(members);
+        for format in [DeckFormat::OpenSeesPy, DeckFormat::OpenSeesTcl] {
+            let deck = crate::deck(&parameters, &record, format).unwrap();
+            let name = match format {
+                DeckFormat::OpenSeesPy => "DAMPER_ALOFT = ",
+                _ => "set damperAloft ",
+            };
+            let text = deck.split(name).nth(1).unwrap();
+            let value: f64 = text.split_whitespace().next().unwrap().parse().unwrap();
+            assert_eq!(value, aloft, "{format:?} {share} {c}");
+        }
+    }
+}
+
 #[test]
 fn opensees_decks_hold_the_whole_record_in_order() {
     let accel = Record::el_centro().accel;

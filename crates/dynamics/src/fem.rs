@@ -57,6 +57,7 @@ pub use energy::Energy;
 pub use history::{Account, Forces, History, Recorder};
 pub use landings::{Landing, MOMENT};
 pub use lanes::histories;
+pub use model::MASSLESS_ROTATION;
 pub use observer::{Change, Observer, View};
 
 use std::ops::ControlFlow;

@@ -86,7 +86,7 @@ impl Pose {
 /// feels is kept, m R^2 + I_cg, by moving I_cg/R^2 into the inertia of the translation; what is
 /// lost is the share 2 sin^2(alpha) I_cg/(m R^2) of the restitution, less than 1e-3 for any slender
 /// body.
-const MASSLESS_ROTATION: f64 = 2e-3;
+pub const MASSLESS_ROTATION: f64 = 2e-3;
 
 /// Share of 1/Omega_n below which the time that dampers hold up a massless rotation is none.
 const AT_ONCE: f64 = 1e-2;
