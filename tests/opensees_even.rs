@@ -67,8 +67,11 @@ fn decks_of_even_steps_find_what_the_emulation_found() {
             );
             let in_part = said.contains("beyond, the motion cannot be predicted");
             assert_eq!(in_part, case == "block.toml", "{case} {stepping} {format}: {said}");
+            // the emulation of substeps at touches gives up under HHT, and the deck ends there
+            let ends = integrator.starts_with("hht") && stepping == "touches";
+            assert_eq!(code, Some(if ends { 2 } else { 0 }), "{integrator} {format}: {said}");
             assert!(
-                code == Some(0) && said.contains("within 1 %: yes"),
+                said.contains("within 1 %: yes"),
                 "{case} {integrator} {stepping} {format}: {said}"
             );
         }
