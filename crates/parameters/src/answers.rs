@@ -59,7 +59,8 @@ pub fn both(
     ModelComparison { rocking, level, housner: motion, fem, matched, demands, with }
 }
 
-/// The finite elements with members through a record, beside Housner's history and its motion.
+/// The finite elements with members through a record, beside Housner's equation with a tendon and
+/// dampers, or with friction beside the history that he has of the bare body, and its motion.
 pub fn with_members(
     body: &Body<f64>,
     restitution: f64,
@@ -73,9 +74,15 @@ pub fn with_members(
         ..fem::Analysis::new(*body, *springs, record.dt, &record.accel)
     };
     let (history, mut demands) = case.simulate_with(members);
-    let matched = Match::new(body, record.dt, (motion, &rocking.impacts), &history, restitution);
+    let options = housner::RockingOptions::on(record, restitution).with_members(*members);
+    let rigid =
+        members.act().then(|| housner::solve(body, record.dt, &record.accel, &options));
+    let housner = rigid.as_ref().map(|rigid| rigid.motion(body));
+    let reference = housner.as_ref().unwrap_or(motion);
+    let impacts = &rigid.as_ref().unwrap_or(rocking).impacts;
+    let matched = Match::new(body, record.dt, (reference, impacts), &history, restitution);
     count(&mut demands, body, record.dt, &history.landings, matched.overturned_fem_s);
-    MemberHistory { members: *members, history, demands, matched }
+    MemberHistory { members: *members, rocking: rigid, housner, history, demands, matched }
 }
 
 /// Both models on the springs and members of a parameter file, and what they say together: peaks,
@@ -138,11 +145,16 @@ impl ModelComparison {
 pub struct MemberHistory {
     /// What the body has besides.
     pub members: Members,
+    /// Housner's history of a body with a tendon or dampers; none with friction, on which feet may
+    /// slip.
+    pub rocking: Option<Rocking<f64>>,
+    /// Motion of the centre of mass in it.
+    pub housner: Option<Motion>,
     /// The finite element history with them.
     pub history: History,
     /// Forces in it.
     pub demands: Demands,
-    /// How it matches Housner's.
+    /// How it matches Housner's with them; with friction, that of the bare body.
     pub matched: Match,
 }
 

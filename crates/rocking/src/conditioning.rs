@@ -219,6 +219,7 @@ pub fn sensitivity(
         scale: (real(0.0).derivative(1) + 1.0) * options.scale,
         vertical: options.vertical.clone(),
         restitution: options.restitution.map(real),
+        members: options.members,
         duration: options.duration,
         initial: options.initial.map(|(theta, rate)| (real(theta), real(rate))),
         max_work: options.max_work,

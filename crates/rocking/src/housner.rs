@@ -18,7 +18,7 @@
 //!
 //! At rest the body stays down until |u_g| > (g + a_v) tan(alpha). With vertical motion a history
 //! ends where the pivot's normal force falls to zero (`contact`); without it the regime's warnings
-//! tell. Every step ends at a sample, since the record has a kink there: the kinks, not a
+//! tell. A tendon and dampers add their torques (`restraint`). Every step ends at a sample, since the record has a kink there: the kinks, not a
 //! tolerance, decide the accuracy. One Taylor step spans an interval (`series`), impacts are roots
 //! of the step's polynomial (`root`), and all of it is generic in the scalar, so derivatives pass
 //! through the events (`walk`).
@@ -27,10 +27,12 @@ mod contact;
 mod interval;
 mod lanes;
 mod rest;
+mod restraint;
 mod root;
 mod series;
 mod walk;
 
+use crate::members::Members;
 use crate::motion::{Motion, samples_until};
 use crate::scalar::{GRAVITY, Scalar, real};
 use crate::structure::Body;
@@ -47,6 +49,9 @@ pub struct RockingOptions<S> {
     pub vertical: Option<Arc<[f64]>>,
     /// Velocity restitution e, 0 to 1; by equation (2) unless given.
     pub restitution: Option<S>,
+    /// What the body has besides; a tendon and dampers act on it, friction does not: the pivot
+    /// holds.
+    pub members: Members,
     /// Stop after this time (s); at the record's end unless given.
     pub duration: Option<f64>,
     /// theta (rad) and theta' (rad/s) at t = 0; at rest unless given.
@@ -61,6 +66,7 @@ impl<S: Scalar> Default for RockingOptions<S> {
             scale: S::one(),
             vertical: None,
             restitution: None,
+            members: Members::default(),
             duration: None,
             initial: None,
             max_work: 2_000_000,
@@ -73,6 +79,12 @@ impl RockingOptions<f64> {
     pub fn on(record: &Record, restitution: f64) -> Self {
         let (vertical, restitution) = (record.vertical_accel(), Some(restitution));
         Self { vertical, restitution, ..Self::default() }
+    }
+
+    /// The same of a body with these members.
+    #[must_use]
+    pub fn with_members(self, members: Members) -> Self {
+        Self { members, ..self }
     }
 }
 
@@ -173,15 +185,19 @@ pub fn solve_with_derivatives<S: Scalar>(
     options: &RockingOptions<S>,
 ) -> Rocking<S> {
     let (theta, rate) = start(options);
-    let set = setting(body, dt, accel, options);
-    match options.vertical {
-        None => walk::walk::<S, false>(set, theta, rate),
-        Some(_) => walk::walk::<S, true>(set, theta, rate),
+    walked(setting(body, dt, accel, options), options.vertical.is_some(), theta, rate)
+}
+
+fn walked<S: Scalar>(set: walk::Setting<'_, S>, vertical: bool, theta: S, rate: S) -> Rocking<S> {
+    match vertical {
+        false => walk::walk::<S, false>(set, theta, rate),
+        true => walk::walk::<S, true>(set, theta, rate),
     }
 }
 
 /// Rock many bodies on one record, or one body on many scales of it, sixteen at a time in
-/// lock-step, on every thread; each result is, bit for bit, that of the body rocked alone. The
+/// lock-step, on every thread; each result is, bit for bit, that of the body rocked alone; those
+/// with a tendon or dampers are rocked one by one. The
 /// longer of the two lists decides how many there are; the shorter one is repeated from its start.
 /// Without bodies, or without options, there are no histories. Options with the same vertical
 /// record (clones of one `Arc`) go side by side.
@@ -206,8 +222,14 @@ pub fn solve_lanes(
     let mut placed = Vec::with_capacity(all.len());
     for ground in grounds {
         let those = all.iter().filter(|(_, _, options)| is_same(ground, options.vertical.as_ref()));
-        let those =
-            those.map(|&(i, body, options)| (i, setting(body, dt, accel, options), start(options)));
+        let (restrained, those): (Vec<_>, Vec<_>) = those
+            .map(|&(i, body, options)| (i, setting(body, dt, accel, options), start(options)))
+            .partition(|(_, set, _)| set.restraint.is_some());
+        let vertical = ground.is_some();
+        placed.extend(parallel::map_owned(restrained, |(i, set, (theta, rate))| {
+            (i, walked(set, vertical, theta, rate))
+        }));
+        let those = those.into_iter();
         match ground {
             None => together::<false>(those, &mut placed),
             Some(_) => together::<true>(those, &mut placed),
@@ -269,6 +291,7 @@ fn setting<'a, S: Scalar>(
         p2: body.p_squared(),
         arm: radius.re() / GRAVITY,
         e: options.restitution.unwrap_or_else(|| body.restitution()),
+        restraint: restraint::Restraint::of(body, &options.members),
         max_work: options.max_work,
     }
 }

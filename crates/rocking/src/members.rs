@@ -70,10 +70,11 @@ pub struct Members {
 impl Members {
     /// Whether there is only the rigid body.
     pub fn is_none(&self) -> bool {
-        !self.any() && self.friction.is_none()
+        !self.act() && self.friction.is_none()
     }
 
-    fn any(&self) -> bool {
+    /// Whether a tendon or dampers act on the body.
+    pub fn act(&self) -> bool {
         self.damper.is_some() || self.tendon.is_some()
     }
 }
@@ -126,7 +127,7 @@ impl Members {
             ]
         });
         let friction = self.friction.map(|f| positive("friction.coefficient", f.coefficient));
-        if friction.is_some() && self.any() {
+        if friction.is_some() && self.act() {
             return Err(MembersError::Slipping);
         }
         if friction.is_some() && body.inertia <= 0.0 {

@@ -46,14 +46,19 @@ pub(crate) fn surely_presses<const N: usize>(
 }
 
 /// Where in a step, x in [0, 1], a pressed pivot's force falls to zero; `c` is the lean's series,
-/// `arm` = R/(g h^2).
+/// `arm` = R/(g h^2), `press` what members press over the weight.
 pub(crate) fn loss<const N: usize>(
     c: &[f64; N],
     at: &StepStart<f64>,
     ground: &StepGround<f64>,
     arm: f64,
+    press: Option<&[f64; N]>,
 ) -> Option<f64> {
-    let n = series(c, at, ground, arm);
+    let mut n = series(c, at, ground, arm);
+    // the force's series has two terms fewer than the lean's
+    for (n, press) in n.iter_mut().zip(press.into_iter().flatten()).take(N - 2) {
+        *n += press;
+    }
     let mut x = first_root(&n)?;
     for _ in 0..2 {
         let (value, slope) = value_and_slope(&n, x);
@@ -138,7 +143,7 @@ mod tests {
         for i in 0..40 {
             let ground = StepGround { b: -0.3, db: 0.4, gamma: 0.6, dgamma: -0.02 * f64::from(i) };
             let (at, lean) = step(&ground, 1.0, h);
-            let found = loss(&lean.c, &at, &ground, ARM / (h * h));
+            let found = loss(&lean.c, &at, &ground, ARM / (h * h), None);
             // share = p^2 R/g
             let sure = surely_presses(&lean.c, at.sin, &ground, P2 * ARM, ARM / (h * h));
             assert!(!(sure && found.is_some()), "{i}");

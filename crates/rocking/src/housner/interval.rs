@@ -6,11 +6,12 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use super::restraint::{RestrainedSeries, Restraint};
 use super::root::{crossing, first_root, impact_time};
 use super::series::{PowerSeries, StepGround, StepStart, value_and_slope};
-use super::walk::{Sample, Setting, WalkState, falls};
+use super::walk::{Sample, Setting, WalkState};
 use super::{Impact, Rocking, RockingOutcome, Uplift, contact, rest};
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, real};
 
 impl<S: Scalar> Setting<'_, S> {
     /// Interval i, piece by piece; false, with the outcome set, if the history ends in it.
@@ -31,7 +32,8 @@ impl<S: Scalar> Setting<'_, S> {
         let mut lifting = false;
         while x.re() < 1.0 {
             if !state.rocking {
-                let side = match rest::outcome::<V, S>(x, (a0, da), (g0, dg), self.lift) {
+                let held = (self.held(g0), dg);
+                let side = match rest::outcome::<V, S>(x, (a0, da), held, self.lift) {
                     rest::RestOutcome::Lasts => return true,
                     rest::RestOutcome::LetsGo { at } => {
                         out.outcome = RockingOutcome::LeavesGround { time: start + at * self.dt };
@@ -58,7 +60,7 @@ impl<S: Scalar> Setting<'_, S> {
             let h = left * self.dt;
             let (b, db) = ((a0 + da * x) * state.side, da * left * state.side);
             let ground = StepGround { b, db, gamma: g0 + dg * x, dgamma: dg * left };
-            let (series, reach) = self.piece::<V, N>(&state.at, h, &ground);
+            let (series, reach, press) = self.piece::<V, N>(&state.at, h, &ground);
             let mut c = series.re();
             if lifting {
                 // at the limit w'' = 0, and its rounding error must not press the body into the
@@ -67,7 +69,7 @@ impl<S: Scalar> Setting<'_, S> {
                 lifting = false;
             }
             let impact = first_root(&c);
-            if V && let Some(z) = self.loss(&state.at, &c, &ground.re(), h.re(), reach)
+            if V && let Some(z) = self.loss(&state.at, (&c, press), &ground.re(), h.re(), reach)
                 && impact.is_none_or(|impact| z < impact)
             {
                 let time = start + (x.re() + left.re() * reach * z) * self.dt;
@@ -96,20 +98,49 @@ impl<S: Scalar> Setting<'_, S> {
         true
     }
 
-    /// The motion from `at` on over at most a time h (s), and the share of h over which it holds.
+    /// The motion from `at` on over at most a time h (s), the share of h over which it holds, and
+    /// what members press on the pivot in it.
     #[inline(always)]
     fn piece<const V: bool, const N: usize>(
         &self,
         at: &StepStart<S>,
         h: S,
         ground: &StepGround<S>,
-    ) -> (PowerSeries<S, N>, f64) {
+    ) -> (PowerSeries<S, N>, f64, Option<[f64; N]>) {
+        if let Some(restraint) = &self.restraint {
+            return self.restrained_piece(restraint, at, h, ground);
+        }
         let mut series = PowerSeries::new::<V>(at, h, ground, self.p2 * h * h);
         let reach = series.reach();
         if reach < 1.0 {
             series.shorten(reach);
         }
-        (series, reach)
+        (series, reach, None)
+    }
+
+    /// The same of a body with a tendon or dampers.
+    #[inline(never)]
+    fn restrained_piece<const N: usize>(
+        &self,
+        restraint: &Restraint<S>,
+        at: &StepStart<S>,
+        h: S,
+        ground: &StepGround<S>,
+    ) -> (PowerSeries<S, N>, f64, Option<[f64; N]>) {
+        let part = restraint.part(h.re());
+        let h = h * part;
+        let ground = StepGround { db: ground.db * part, dgamma: ground.dgamma * part, ..*ground };
+        let q = self.p2 * h * h;
+        let RestrainedSeries { lean, mut press } = restraint.series(at, h, &ground, q);
+        let mut series = PowerSeries::of(lean, &ground, q, restraint.growth(h.re()));
+        let reach = series.reach();
+        if reach < 1.0 {
+            series.shorten(reach);
+            for (k, press) in press.iter_mut().enumerate() {
+                *press *= reach.powi(k as i32);
+            }
+        }
+        (series, part * reach, Some(press))
     }
 
     /// Carry the state over a piece of length h without an event, `time` (s) the time at a fraction
@@ -145,7 +176,11 @@ impl<S: Scalar> Setting<'_, S> {
     fn at_sample(&self, state: &mut WalkState<S>, x: S, then: Sample<S>) {
         let late = S::one() - x;
         let late = (late - late.re()) * self.dt;
-        let force = self.p2 * (then.gamma * state.at.sin + then.a * state.at.cos * state.side);
+        let weight = self.p2 * (then.gamma * state.at.sin + then.a * state.at.cos * state.side);
+        let force = match &self.restraint {
+            Some(restraint) => weight + restraint.torque(&state.at),
+            None => weight,
+        };
         state.at.w += state.at.rate * late;
         state.at.rate -= force * late;
     }
@@ -155,17 +190,18 @@ impl<S: Scalar> Setting<'_, S> {
     fn loss<const N: usize>(
         &self,
         at: &StepStart<S>,
-        c: &[f64; N],
+        (c, press): (&[f64; N], Option<[f64; N]>),
         ground: &StepGround<f64>,
         h: f64,
         reach: f64,
     ) -> Option<f64> {
         let at = StepStart { w: at.w.re(), rate: at.rate.re(), sin: at.sin.re(), cos: at.cos.re() };
-        if contact::pressure(&at, ground, self.p2.re(), self.arm) <= 0.0 {
+        // a force of zero has members in `contact::loss`
+        if press.is_none() && contact::pressure(&at, ground, self.p2.re(), self.arm) <= 0.0 {
             return Some(0.0);
         }
         let ground = StepGround { db: ground.db * reach, dgamma: ground.dgamma * reach, ..*ground };
-        contact::loss(c, &at, &ground, self.arm_of(h * reach))
+        contact::loss(c, &at, &ground, self.arm_of(h * reach), press.as_ref())
     }
 
     /// The pivot lets go at z of a piece of length h (s), at a time (s): the end, which a body that
@@ -181,8 +217,8 @@ impl<S: Scalar> Setting<'_, S> {
     ) {
         let (w, slope) = value_and_slope(c, z);
         let alpha = self.alpha.re();
-        let at = StepStart { w, rate: slope / h, sin: 0.0, cos: 1.0 };
-        out.outcome = if falls(&at, alpha, self.p2.re()) {
+        let [w, rate] = [w, slope / h].map(real::<S>);
+        out.outcome = if self.falls(&StepStart { w, rate, ..state.at }) {
             if state.at.w.re() < alpha {
                 let mut part = *c;
                 (1..N).fold(1.0, |power, k| {
@@ -228,7 +264,10 @@ impl<S: Scalar> Setting<'_, S> {
             left: (1.0 - x.re()) * self.dt,
             now: (now.a + (then.a - now.a) * x).re(),
             then: then.a.re(),
-            gamma: ((now.gamma + (then.gamma - now.gamma) * x).re(), then.gamma.re()),
+            gamma: (
+                self.held(now.gamma + (then.gamma - now.gamma) * x).re(),
+                self.held(then.gamma).re(),
+            ),
             e: self.e.re(),
             alpha: self.alpha.re(),
             ground: (self.sin_alpha.re(), self.cos_alpha.re()),

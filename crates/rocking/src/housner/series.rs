@@ -300,6 +300,13 @@ impl<S: Scalar, const N: usize> PowerSeries<S, N> {
         Self { c, growth, size }
     }
 
+    /// Of coefficients that other forces have a part in, by which they grow faster.
+    pub(crate) fn of(c: [S; N], ground: &StepGround<S>, q: S, faster: f64) -> Self {
+        let re = real_parts(&c);
+        let growth = growth::<true, N>(&re, &ground.re(), q.re()) + faster;
+        Self { c, growth, size: size(&re, q.re().sqrt()) }
+    }
+
     /// The change of w over the whole step.
     #[inline(always)]
     pub(crate) fn change(&self) -> S {

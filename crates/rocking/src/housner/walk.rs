@@ -13,7 +13,7 @@ use super::series::{
     LEAST, LONG, SHORT, SMALL, StepGround, StepStart, change, coefficients, end_slope, is_plain,
     pulls, real_parts, turned,
 };
-use super::{Rocking, RockingOutcome, contact, rest};
+use super::{Rocking, RockingOutcome, contact, rest, restraint::Restraint};
 use crate::scalar::{Scalar, real};
 
 /// Sine and cosine are carried from step to step by a rotation, and taken anew after this many
@@ -65,6 +65,8 @@ pub(crate) struct Setting<'a, S> {
     pub arm: f64,
     /// Velocity restitution.
     pub e: S,
+    /// A tendon and dampers.
+    pub restraint: Option<Restraint<S>>,
     pub max_work: usize,
 }
 
@@ -109,6 +111,8 @@ pub(crate) struct Walk<'a, S, const V: bool> {
 /// Walk from the given lean and rate at t = 0 to the last sample.
 pub(crate) fn walk<S: Scalar, const V: bool>(set: Setting<S>, theta: S, rate: S) -> Rocking<S> {
     let n = set.accel.len();
+    // a step of the bare body's series does not take it
+    let restrained = set.restraint.is_some();
     let mut walk = Walk::<S, V>::new(set, theta, rate);
     let mut i = 0;
     let mut a0 = walk.ground(0);
@@ -121,7 +125,7 @@ pub(crate) fn walk<S: Scalar, const V: bool>(set: Setting<S>, theta: S, rate: S)
             break;
         }
         let a1 = walk.ground(i + 1);
-        if !walk.advance(i, a0, a1, false) {
+        if !walk.advance(i, a0, a1, restrained) {
             break;
         }
         a0 = a1;
@@ -143,7 +147,8 @@ impl<'a, S: Scalar, const V: bool> Walk<'a, S, V> {
         let q = set.p2 * (set.dt * set.dt);
         let quiet = (set.lift / set.unit).re().abs();
         let state = set.begin(theta, rate);
-        Self { set, state, out, q, pace: Pace::of(q.re()), quiet }
+        let pace = if set.restraint.is_some() { Pace::Fast } else { Pace::of(q.re()) };
+        Self { set, state, out, q, pace, quiet }
     }
 
     /// The ground at sample i; at rest beyond the record.
@@ -247,7 +252,7 @@ impl<'a, S: Scalar, const V: bool> Walk<'a, S, V> {
     pub(crate) fn end(mut self) -> Rocking<S> {
         let Self { set, state, out, .. } = &mut self;
         if out.outcome == RockingOutcome::NeverMoved {
-            if state.rocking && falls(&state.at, set.alpha.re(), set.p2.re()) {
+            if state.rocking && set.falls(&state.at) {
                 out.outcome = RockingOutcome::Overturned { time: state.passed };
             } else if state.started || !out.uplifts.is_empty() {
                 out.outcome = RockingOutcome::Rocked;
@@ -261,13 +266,6 @@ impl<'a, S: Scalar, const V: bool> Walk<'a, S, V> {
 #[inline(always)]
 pub(crate) fn turns_well(age: u64, change: f64) -> bool {
     age < REFRESH && change.abs() < SMALL
-}
-
-/// Whether a body beyond alpha goes on falling when the ground stops: w'^2/2 against p^2 (1 - cos(w
-/// - alpha)).
-pub(crate) fn falls<S: Scalar>(at: &StepStart<S>, alpha: f64, p2: f64) -> bool {
-    let (beyond, rate) = (at.w.re() - alpha, at.rate.re());
-    beyond > 0.0 && (rate >= 0.0 || rate * rate < 4.0 * p2 * (0.5 * beyond).sin().powi(2))
 }
 
 impl<S: Scalar> Setting<'_, S> {
@@ -335,6 +333,17 @@ impl<S: Scalar> Setting<'_, S> {
         plain
     }
 
+    /// Whether a body beyond alpha goes on falling when the ground stops: w'^2/2 against p^2 (1 -
+    /// cos(w - alpha)).
+    pub(crate) fn falls(&self, at: &StepStart<S>) -> bool {
+        let (alpha, p2) = (self.alpha.re(), self.p2.re());
+        if let Some(restraint) = &self.restraint {
+            return restraint.falls(at, alpha, p2);
+        }
+        let (beyond, rate) = (at.w.re() - alpha, at.rate.re());
+        beyond > 0.0 && (rate >= 0.0 || rate * rate < 4.0 * p2 * (0.5 * beyond).sin().powi(2))
+    }
+
     /// m R^2/I0 = p^2 R/g.
     #[inline(always)]
     pub(crate) fn share(&self) -> f64 {
@@ -360,11 +369,16 @@ impl<S: Scalar> Setting<'_, S> {
         }
     }
 
+    /// gamma of a body at rest: with what a tendon adds to its weight.
+    pub(crate) fn held(&self, gamma: S) -> S {
+        self.restraint.as_ref().map_or(gamma, |restraint| gamma + restraint.hold)
+    }
+
     /// The sample now is above the limit, but `rest::uplift` calls that a graze.
     fn is_grazing(&self, now: Sample<S>, then: Sample<S>) -> bool {
         let rest = |now: S, then: S| (now, then - now);
-        rest::uplift(S::zero(), rest(now.a, then.a), rest(now.gamma, then.gamma), self.lift)
-            .is_none()
-            && now.gamma.re() > 0.0
+        let held = rest(self.held(now.gamma), self.held(then.gamma));
+        rest::uplift(S::zero(), rest(now.a, then.a), held, self.lift).is_none()
+            && self.held(now.gamma).re() > 0.0
     }
 }

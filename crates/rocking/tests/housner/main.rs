@@ -6,6 +6,7 @@ mod el_centro;
 mod free_rocking;
 mod lanes;
 mod reference;
+mod restrained;
 mod symmetry;
 mod vertical;
 
