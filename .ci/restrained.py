@@ -2,16 +2,23 @@
 """Rocking of a rigid body with a tendon and dampers, by SciPy: values of the test
 `crates/rocking/tests/housner/restrained.rs`.
 
-    python3 .ci/restrained.py
+    python3 .ci/restrained.py [target/release/tune]
 
-Equation of motion from Cartesian positions of the mass and of the corners about the pivot, numeric
+With a program, its `tune housner` is to have the same to 1e-9 rad. Equation of motion from Cartesian positions of the mass and of the corners about the pivot, numeric
 virtual work: d/dt(I0 w') = sum of F . dr/dw. Impacts by equation 2. Ground: linear between samples.
 """
+
+import csv
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
 G = 9.81
+HALF_WIDTH, HEIGHT, MASS, INERTIA = 1.05, 8.9, 120e3, 3.0e5
 
 
 class Body:
@@ -43,12 +50,12 @@ class Body:
         return torque / self.i0
 
 
-def history(body, accel, dt, theta0=0.0, until=None):
+def history(body, accel, dt):
     """theta at the samples, and impacts."""
     count = len(accel)
     times = np.arange(count) * dt
-    theta, impacts = [theta0], []
-    rocking, side, state = theta0 != 0, np.sign(theta0) or 1.0, [abs(theta0), 0.0]
+    theta, impacts = [0.0], []
+    rocking, side, state = False, 1.0, [0.0, 0.0]
     limit = body.b / body.h * (G + body.n / body.mass)
     for i in range(count - 1):
         t, end = times[i], times[i + 1]
@@ -65,7 +72,7 @@ def history(body, accel, dt, theta0=0.0, until=None):
                 t = min(inside)
                 side = -np.sign(ground(t))
                 rocking, state = True, [0.0, 0.0]
-                # off the ground by a Taylor step: w''' alone is not zero there
+                # w''' alone is not zero there
                 if end - t < 1e-12:
                     break
             right = lambda s, y: [y[1], body.second(y[0], y[1], side, ground(s))]
@@ -86,23 +93,63 @@ def history(body, accel, dt, theta0=0.0, until=None):
     return np.array(theta), impacts
 
 
-def noise(dt, seconds):
+def ground(dt, seconds):
+    """Three sines (m/s2), as the test has them."""
     t = np.arange(round(seconds / dt) + 1) * dt
-    g = 0.25 * np.sin(5.1 * t) + 0.2 * np.sin(11.3 * t + 1) + 0.15 * np.sin(23.7 * t + 2)
-    return t, g
+    sines = 0.25 * np.sin(5.1 * t) + 0.2 * np.sin(11.3 * t + 1) + 0.15 * np.sin(23.7 * t + 2)
+    return np.round(sines * np.minimum(t / 2, 1) * G, 6)
+
+
+CASE = """[structure]
+kind = "block"
+height_m = {h}
+width_m = {width}
+mass_kg = {mass}
+rotational_inertia_kgm2 = {inertia}
+{members}"""
+TENDON = "[tendon]\nstiffness_n_per_m = {k}\npretension_n = {n}\n"
+DAMPER = "[damper]\nc_ns_per_m = {c}\n"
+
+
+def of_tune(tune, accel, dt, k, n, c):
+    """theta by `tune housner`."""
+    with tempfile.TemporaryDirectory() as folder:
+        folder = Path(folder)
+        (folder / "ground.txt").write_text("".join(f"{a:.6f}\n" for a in accel))
+        members = TENDON.format(k=k, n=n) if k else ""
+        members += DAMPER.format(c=c) if c else ""
+        case = CASE.format(
+            h=HEIGHT, width=2 * HALF_WIDTH, mass=MASS, inertia=INERTIA, members=members
+        )
+        (folder / "case.toml").write_text(case)
+        record = ["--record", folder / "ground.txt", "--dt", str(dt), "--units", "m/s2"]
+        out = subprocess.run(
+            [tune, "housner", folder / "case.toml", *record],
+            check=True,
+            capture_output=True,
+            text=True,
+        ).stdout
+    return np.array([float(row["th"]) for row in csv.DictReader(out.splitlines())])
 
 
 def main():
     dt = 0.01
-    t, g = noise(dt, 8.0)
-    accel = np.round(3.0 * g * np.minimum(t / 2, 1) * G / 3, 6)
-    for name, k, n, c in [("tendon", 4e7, 2e5, 0.0), ("dampers", 0.0, 0.0, 8e4),
-                          ("both", 4e7, 2e5, 8e4)]:
-        body = Body(1.05, 8.9, 120e3, 3.0e5, k, n, c)
+    accel = ground(dt, 8.0)
+    for name, k, n, c in [
+        ("tendon", 4e7, 2e5, 0.0),
+        ("dampers", 0.0, 0.0, 8e4),
+        ("tendon and dampers", 4e7, 2e5, 8e4),
+    ]:
+        body = Body(HALF_WIDTH, HEIGHT, MASS, INERTIA, k, n, c)
         theta, impacts = history(body, accel, dt)
         peak = np.abs(theta).argmax()
-        print(name, "peak", peak, repr(theta[peak]), "end", repr(theta[-1]), len(impacts))
-        print("  ", impacts[:3])
+        print(f"{name}: sample {peak} {float(theta[peak])!r}, last {float(theta[-1])!r}, {len(impacts)} impacts,")
+        print(f"    the first at {float(impacts[0][0])!r} s")
+        if len(sys.argv) > 1:
+            apart = np.abs(of_tune(sys.argv[1], accel, dt, k, n, c) - theta).max()
+            print(f"    tune housner differs by {apart:.1e} rad")
+            if apart > 1e-9:
+                sys.exit("more than 1e-9 rad")
 
 
 if __name__ == "__main__":

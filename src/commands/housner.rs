@@ -47,6 +47,7 @@ pub fn run(o: &HousnerOptions) -> Result<(), CommandError> {
         }
         None => (Structure::paper(), None, Case::paper()?),
     };
+    let members = default.members;
     let excitation = o.record.excitation_of_case(&default.excitation, &default.notices)?;
     let out = o.out.as_deref().map(|path| file_in(path, "housner.csv")).transpose()?;
     if let Some(path) = &out {
@@ -58,6 +59,7 @@ pub fn run(o: &HousnerOptions) -> Result<(), CommandError> {
     let options = housner::RockingOptions {
         restitution: restitution(o.restitution)?.or(e),
         vertical: record.vertical_accel(),
+        members,
         ..Default::default()
     };
     let rocking = housner::solve(&body, record.dt, &record.accel, &options);

@@ -280,10 +280,10 @@ fn trace<'a>(label: &'a str, motion: &'a Motion) -> Trace<'a> {
     Trace { label, u: &motion.u, v: &motion.v, ..Trace::default() }
 }
 
-/// Housner's body, which has no members: it lies behind those that are compared where they have
-/// some, and where it overturns.
+/// Housner's body, which holds where it stands: it lies behind those that are compared where their
+/// feet may slip, and where it overturns.
 fn reference<'a>(parameters: &Parameters, motion: &'a Motion) -> Trace<'a> {
-    let bare = !parameters.members().is_none();
+    let bare = parameters.members().friction.is_some();
     let alpha = parameters.structure.body::<f64>().alpha();
     let overturns = motion.theta.iter().any(|theta| theta.abs() > alpha);
     let label = if bare { "Housner, without members" } else { "Housner" };

@@ -78,7 +78,7 @@ pub struct Verification {
     pub opensees: Motion,
     /// Our finite elements'.
     pub ours: Motion,
-    /// Housner's.
+    /// Housner's, with a tendon and dampers if the body has these.
     pub housner: Motion,
     /// Largest motions of ours and OpenSees'.
     pub peaks: Vec<ComparedPeak>,
@@ -179,7 +179,8 @@ pub fn verify(
     };
     let body = parameters.structure.body::<f64>();
     let history = simulate(parameters, record);
-    let options = housner::RockingOptions::on(record, parameters.restitution());
+    let options = housner::RockingOptions::on(record, parameters.restitution())
+        .with_members(parameters.members());
     let rocking = housner::solve(&body, record.dt, &record.accel, &options);
     let housner = rocking.motion(&body);
 

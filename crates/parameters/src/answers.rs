@@ -75,8 +75,7 @@ pub fn with_members(
     };
     let (history, mut demands) = case.simulate_with(members);
     let options = housner::RockingOptions::on(record, restitution).with_members(*members);
-    let rigid =
-        members.act().then(|| housner::solve(body, record.dt, &record.accel, &options));
+    let rigid = members.act().then(|| housner::solve(body, record.dt, &record.accel, &options));
     let housner = rigid.as_ref().map(|rigid| rigid.motion(body));
     let reference = housner.as_ref().unwrap_or(motion);
     let impacts = &rigid.as_ref().unwrap_or(rocking).impacts;
@@ -188,7 +187,10 @@ fn peaks_until(demands: &mut Demands, dt: f64, overturned: Option<f64>) {
 mod tests {
     use super::*;
     use dynamics::{fem::QUANTITIES, spring::Design};
-    use rocking::structure::Structure;
+    use rocking::{
+        members::{Damper, Tendon},
+        structure::Structure,
+    };
 
     /// A pier that falls from 0.3 alpha: its foot carries about its weight while it turns about it,
     /// and far more in a landing.
@@ -212,6 +214,45 @@ mod tests {
                 assert!((0.95..1.3).contains(&between) && all > 10.0, "{hz} Hz: {between}, {all}");
             }
         }
+    }
+
+    /// With a tendon and dampers the finite elements follow Housner's equation with these, and their
+    /// landings give back what his do; the bare body moves otherwise.
+    #[test]
+    fn springs_follow_housners_equation_with_members() {
+        let structure = Structure::a_frame(8.9, 2.1, 120e3).unwrap();
+        let body = structure.body::<f64>();
+        let sine = |i: i32| {
+            let t = 0.01 * f64::from(i);
+            if t < 3.0 { 2.2 * (4.0 * t).sin() } else { 0.0 }
+        };
+        let record = Record::new("sine", 0.01, (0..700).map(sine).collect()).unwrap();
+        let design = Design::from_kc(0.25, 0.1, 0.75, 2e4);
+        let springs = Springs { vertical: design, horizontal: design }.chains(120e3);
+        let members = Members {
+            tendon: Some(Tendon { stiffness: 2e6, pretension: 2e5 }),
+            damper: Some(Damper { c: 2e5 }),
+            friction: None,
+        };
+        let of = |members| both(&body, body.restitution(), &springs, &members, &record);
+        let both = of(members);
+        let with = both.with.as_ref().unwrap();
+        let matched = &with.matched;
+        assert!(matched.impacts_housner_firm > Some(4), "{matched:?}");
+        assert_eq!(matched.impacts_housner_firm, matched.impacts_fem_firm);
+        assert_eq!([with.history.motion.len(), with.housner.as_ref().unwrap().len()], [700; 2]);
+        let (reference, bare) = (matched.peak_horizontal_housner_m, &both.matched);
+        assert!(matched.nrmse_horizontal < 2e-3, "{matched:?}");
+        assert!((matched.peak_horizontal_fem_m / reference - 1.0).abs() < 1e-3, "{matched:?}");
+        // those of springs without members: dampers are not counted as a loss of landings
+        let firm = [matched, bare].map(|m| m.restitution_error_firm.unwrap());
+        assert!(firm[0] < 2.0 * firm[1] + 1e-3, "{firm:?}");
+        let apart = bare.peak_horizontal_housner_m.abs() / reference.abs() - 1.0;
+        assert!(apart.abs() > 0.1, "{apart}");
+        // feet on friction may slip: there is no such equation
+        let friction = Some(rocking::members::Friction { coefficient: 0.8 });
+        let slips = of(Members { friction, ..Members::default() });
+        assert!(slips.with.unwrap().housner.is_none());
     }
 
     #[test]

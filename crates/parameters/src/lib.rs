@@ -6,6 +6,7 @@ mod checks;
 pub mod corner;
 pub mod elastic;
 mod error;
+mod members_accuracy;
 pub mod predictability;
 pub mod program;
 mod record;
@@ -20,6 +21,7 @@ use cases::Case;
 use dynamics::spring::{Chain, ChainRow, Design, Springs};
 pub use error::ParametersError;
 use files::message::one_line;
+pub use members_accuracy::MembersAccuracy;
 use program::{FootUnits, ProgramRow};
 pub use record::{RecordRow, RememberedError};
 use results::{DesignForces, FiledFinding, PeakPair};
@@ -126,9 +128,13 @@ pub struct Parameters {
     /// How sensitive Housner's history of that record is.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub conditioning: Option<ConditioningRow>,
-    /// The match of the structure with its members, on the same springs.
+    /// The match of the structure with its members, on the same springs, with Housner's equation of
+    /// the body that a tendon and dampers act on; with friction, of the bare body.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub match_with_members: Option<Match>,
+    /// What springs err on that record with a tendon or dampers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub accuracy_with_members: Option<MembersAccuracy>,
     /// Landings from large leans to small, without any record.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub landings: Vec<LandingRow>,
@@ -183,6 +189,7 @@ impl Parameters {
             matched: None,
             conditioning: None,
             match_with_members: None,
+            accuracy_with_members: None,
             landings: Vec::new(),
             paper_procedure: None,
             table_1: None,

@@ -5,10 +5,8 @@ use serde::Serialize;
 use super::Table;
 use cases::Yardstick;
 use files::message::{percent, significant};
-use springs::{
-    assessment::Assessment,
-    suite::{Accuracy, LOOSER, PeakAccuracy, Statistic},
-};
+use parameters::Parameters;
+use springs::suite::{Accuracy, LOOSER, PeakAccuracy, Statistic};
 use validation::PeakErrors;
 
 /// What the record of the run is called.
@@ -65,8 +63,12 @@ pub struct AccuracyReport {
 }
 
 impl AccuracyReport {
-    /// Of a rigid body's springs, which are judged without its members, if it has any.
-    pub(crate) fn of_rigid(a: &Assessment, has_members: bool) -> Self {
+    /// Of a rigid body's springs, which are judged without its members, if it has any; and on the
+    /// run's record with them.
+    pub(crate) fn of_rigid(parameters: &Parameters) -> Option<Self> {
+        let a = parameters.assessment.as_ref()?;
+        let (has_members, with_members) =
+            (!parameters.members().is_none(), &parameters.accuracy_with_members);
         let (history, each) = (&a.measured, a.measured_peaks);
         let peaks = each.map(|peaks| peaks.largest);
         let worst = |of: fn(&PeakAccuracy) -> Option<PeakErrors>| {
@@ -107,7 +109,22 @@ impl AccuracyReport {
         if let Some(first) = measured.first_mut().filter(|_| has_members) {
             first.on.push_str(", without members");
         }
-        Self { history_asked: of_history, peaks_asked: of_peaks, reached: a.reached, measured }
+        let with_members = with_members.as_ref().map(|of| {
+            let to = of.until_s.map_or(String::new(), |s| format!(" to {} s", significant(s, 4)));
+            let (peaks, worst) = of.peaks();
+            AccuracyOn {
+                on: format!("{THIS_RECORD}{to}, with members"),
+                count: 1,
+                history: Some(of.history),
+                peaks: Some(peaks),
+                worst: Some(worst),
+                history_allowed: of_history,
+                peaks_allowed: of_peaks,
+            }
+        });
+        measured.splice(..0, with_members);
+        let (history_asked, peaks_asked, reached) = (of_history, of_peaks, a.reached);
+        Some(Self { history_asked, peaks_asked, reached, measured })
     }
 
     /// In one sentence, peaks first.

@@ -4,6 +4,7 @@ pub mod at_once;
 mod limits;
 mod peaks;
 pub mod program;
+mod sections;
 pub mod tables;
 mod taken;
 
@@ -17,17 +18,17 @@ use super::{
 use cases::{Case, Objective, doubts::Doubt};
 use decks::stepped_history;
 use dynamics::spring::{Design, Springs};
-use files::message::significant;
 use fixed_steps::FixedStepHistory;
 use limits::springs_findings;
 use parameters::{
-    PaperProcedure, Parameters,
+    MembersAccuracy, PaperProcedure, Parameters,
     answers::{MemberHistory, ModelComparison, both, with_members},
     rigid_forces::design_forces,
 };
 use peaks::{peaks, peaks_to};
 use results::{Finding, PeakChange};
 use rocking::{housner::RockingOutcome, members::Members, regime, structure::Kind};
+use sections::sections;
 use springs::{job::Job, paper_procedure::table_1};
 use strong_motion::Record;
 use taken::taken;
@@ -107,6 +108,9 @@ impl RigidRun {
         if let Some(row) = &mut parameters.program {
             row.on_record = on_record;
         }
+        let of_members = both.with.as_ref();
+        parameters.accuracy_with_members =
+            of_members.and_then(|with| MembersAccuracy::new(&job.body, dt, with, *until));
         let forces = design_forces(kind, &job.body, &job.record, both, softer.as_ref(), *until);
         // where springs answer, softer ones check forces
         let checked = parameters.assessment.as_ref().filter(|_| softer.is_none());
@@ -311,9 +315,7 @@ fn alone(parameters: Parameters) -> Run {
         true => filed(springs_findings(&parameters)),
         false => parameters.findings.clone(),
     };
-    let has_members = !parameters.members().is_none();
-    let assessment = parameters.assessment.as_ref();
-    let accuracy = assessment.map(|of| AccuracyReport::of_rigid(of, has_members));
+    let accuracy = AccuracyReport::of_rigid(&parameters);
     Run {
         taken: taken(&parameters.structure, parameters.restitution(), &parameters.members()),
         reference: super::HOUSNER,
@@ -350,51 +352,4 @@ fn softer(
     };
     let (chains, e) = (springs.chains(case.structure.mass_kg), case.restitution);
     Some(with_members(&job.body, e, &chains, &case.members, record, (&both.rocking, &both.housner)))
-}
-
-/// What the report has of springs, with or without a record.
-fn sections(p: &Parameters) -> Vec<Section> {
-    let mut all = vec![Section {
-        id: "table1",
-        title: "The springs as in the paper's Table 1".into(),
-        text: vec![
-            "For one foot; every foot has a vertical and a horizontal unit. In a unit the gap \
-                spring k1 stands between the foot and an absorber of mass m2, and the spring k2 \
-                and the dashpot c, side by side, between the absorber and the ground. mu = m2/m1 \
-                with the structure's mass m1."
-                .into(),
-            tables::ABSORBER.into(),
-        ],
-        notes: p.assessment.iter().flat_map(|a| a.design()).flatten().collect(),
-        table: Some(tables::springs(p)),
-        ..Section::default()
-    }];
-    all.extend(
-        ProgramReport::of_rigid(p)
-            .iter()
-            .flat_map(|program| [program.section(), program.springs()]),
-    );
-    if let Some(m) = &p.matched {
-        all.push(Section {
-            id: "comparison",
-            title: format!("The first {} s of the record", significant(m.duration_s, 4)),
-            text: p.conditioning.iter().filter_map(limits::conditioning).collect(),
-            table: Some(tables::comparison(p)),
-            ..Section::default()
-        });
-    }
-    if !p.landings.is_empty() {
-        let asked = significant(p.restitution(), 4);
-        all.push(Section {
-            id: "landings",
-            title: "Landings without a record".into(),
-            text: vec![format!(
-                "Released at rest from a share of alpha, landed once, up to the next impact. \
-                    Restitution asked for: {asked}. Ringing is a share of the weight."
-            )],
-            table: Some(tables::landings(p)),
-            ..Section::default()
-        });
-    }
-    all
 }

@@ -11,7 +11,8 @@ use figures::{EventMark, Figure, FigureError, Sheet, brief, short};
 use parameters::answers::ModelComparison;
 use report::stiffness_tradeoff::TradeoffPoint;
 use rocking::{
-    housner,
+    housner::{self, Rocking},
+    motion::Motion,
     structure::{Kind as BodyKind, Structure},
 };
 use springs::job::Job;
@@ -116,9 +117,17 @@ impl Pictures<'_> {
         Some((time, format!("overturned at t = {time:.2} s")))
     }
 
+    /// Housner's history that the finite elements are beside: with a tendon and dampers, if the
+    /// body has these.
+    fn housner(&self) -> (&Rocking<f64>, &Motion) {
+        let with = self.both.with.as_ref();
+        let own = with.and_then(|with| Some((with.rocking.as_ref()?, with.housner.as_ref()?)));
+        own.unwrap_or((&self.both.rocking, &self.both.housner))
+    }
+
     /// When Housner's body overturned, or his solution ended otherwise.
     fn end_of_housner(&self) -> Option<(f64, String)> {
-        let rocking = &self.both.rocking;
+        let (rocking, _) = self.housner();
         let time = match rocking.outcome {
             housner::RockingOutcome::LeavesGround { time } => {
                 return Some((time, format!("Housner: leaves the ground at t = {time:.2} s")));
@@ -133,13 +142,14 @@ impl Pictures<'_> {
     }
 
     fn history(&self) -> Result<Option<Sheet>, FigureError> {
-        let (housner, (fem, _)) = (&self.both.housner, self.own());
+        let ((rocking, housner), (fem, _)) = (self.housner(), self.own());
         let what = match self.case.structure.kind {
             BodyKind::AFrame => "Displacement of the apex",
             BodyKind::Block => "Displacement of the centre of mass",
         };
-        let t = self.times(housner.len().max(fem.motion.len()));
-        let impacts_housner: Vec<f64> = self.both.rocking.impacts.iter().map(|i| i.time).collect();
+        let bare = &self.both.housner;
+        let t = self.times(housner.len().max(fem.motion.len()).max(bare.len()));
+        let impacts_housner: Vec<f64> = rocking.impacts.iter().map(|i| i.time).collect();
         let impacts_fem: Vec<f64> =
             fem.landings.iter().filter(|l| l.impact).map(|l| l.time).collect();
         let (end, fall) = (self.end_of_housner(), self.fall());
@@ -149,8 +159,13 @@ impl Pictures<'_> {
             fall.map(|(time, _)| (time, format!("finite elements: overturned at t = {time:.2} s")));
         let fall = fall
             .or_else(|| early.then(|| (last, format!("finite elements: end at t = {last:.2} s"))));
+        let own = self.both.with.as_ref().map(|with| with.housner.is_some());
         let reference = figures::history::Trace {
-            label: if self.both.with.is_some() { "Housner, without members" } else { "Housner" },
+            label: match own {
+                Some(true) => "Housner, with members",
+                Some(false) => "Housner, without members",
+                None => "Housner",
+            },
             u: &housner.u,
             v: &housner.v,
             impacts: &impacts_housner,
@@ -167,12 +182,20 @@ impl Pictures<'_> {
             answers: self.both.with.is_some(),
             behind: false,
         };
+        let without = figures::history::Trace {
+            label: "Housner, without members",
+            u: &bare.u,
+            v: &bare.v,
+            behind: true,
+            ..Default::default()
+        };
+        let others = [other, without];
         let title = self.title(what);
         let data = figures::history::HistoryFigure {
             title: &title,
             t: &t,
             reference,
-            others: &[other],
+            others: if own == Some(true) { &others } else { &others[..1] },
             differences: false,
         };
         figures::history::draw(&data).map(Some)

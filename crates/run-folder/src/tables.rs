@@ -10,10 +10,12 @@ use rocking::{
 };
 
 /// `history.csv`: the motions at the record's samples, 12 significant digits; with members three
-/// columns more.
+/// columns more, and with a tendon or dampers three of Housner's equation with them.
 pub fn history_csv(dt: f64, both: &ModelComparison) -> String {
     let mut motions = vec![("housner", &both.housner), ("fem", &both.fem.motion)];
     motions.extend(both.with.as_ref().map(|with| ("members", &with.history.motion)));
+    let rigid = both.with.as_ref().and_then(|with| with.housner.as_ref());
+    motions.extend(rigid.map(|motion| ("housner_members", motion)));
     let mut out = String::from("t");
     for (name, _) in &motions {
         // writing to a String cannot fail

@@ -93,6 +93,7 @@ impl UnscaledGround {
                 scale,
                 vertical: self.vertical.clone(),
                 restitution: Some(plan.restitution(cell.subject, cell.restitution)),
+                members: plan.subjects[cell.subject].members,
                 ..Default::default()
             })
             .collect();
@@ -229,4 +230,66 @@ pub(super) fn elements(
         ComparisonObserver::new(&subject.body, &rigid.theta[..standing], &pushes[i])
     });
     followed.iter().zip(wanted).map(|((stream, finish), w)| w.answer(stream, finish)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spec::SweepSource;
+    use rocking::members::{Damper, Members, Tendon};
+
+    const FRAME: &str =
+        "[[structure]]\nkind = 'aframe'\nheight_m = 8.9\nwidth_m = 2.1\nmass_kg = 120e3\n";
+    const MEMBERS: &str = "damper = { c_ns_per_m = 8e4 }\n\
+                           [structure.tendon]\nstiffness_n_per_m = 4e7\npretension_n = 2e5\n";
+
+    fn plan(sweep: &str) -> Result<Plan, SweepError> {
+        let text = format!(
+            "[sweep]\n{sweep}[records]\nel_centro = true\nduration_s = 10.0\n\
+             [levels]\nscale = [0.9, 1.2]\n{FRAME}{FRAME}{MEMBERS}"
+        );
+        Plan::new(&SweepSource::parse("sweep.toml".into(), text).unwrap())
+    }
+
+    #[test]
+    fn a_tendon_and_dampers_are_in_the_histories_of_their_structure() {
+        let plan = plan("kind = 'fragility'\n").unwrap();
+        let [bare, held] = [0, 1].map(|i| &plan.subjects[i]);
+        assert_eq!(held.name, format!("{}, tendon, dampers", bare.name));
+        let members = Members {
+            tendon: Some(Tendon { stiffness: 4e7, pretension: 2e5 }),
+            damper: Some(Damper { c: 8e4 }),
+            friction: None,
+        };
+        let over = 1.0 + 2e5 / (120e3 * rocking::scalar::GRAVITY);
+        assert!((held.lifts_at() / bare.lifts_at() - over).abs() < 1e-12);
+        let rows = rows(&plan, None, 0..4, &|_| ()).unwrap();
+        let record = Record::el_centro().truncated(10.0);
+        for row in rows {
+            let subject = &plan.subjects[row.subject];
+            let options = housner::RockingOptions {
+                scale: row.scale,
+                members: if row.subject == 1 { members } else { Members::default() },
+                ..Default::default()
+            };
+            let alone = housner::solve(&subject.body, record.dt, &record.accel, &options);
+            let peak = largest_magnitude(&alone.theta) / subject.alpha;
+            let found = row.housner.unwrap();
+            assert_eq!(found.peak, Some(peak));
+            assert_eq!(found.impacts, Some(alone.impacts.len()));
+        }
+        let hash = |plan: &Plan| plan.inspect(&mut |_| {}).unwrap().hash;
+        let mut other = plan.clone();
+        other.subjects[1].members.damper = Some(Damper { c: 9e4 });
+        assert_ne!(hash(&plan), hash(&other));
+    }
+
+    #[test]
+    fn a_tendon_and_dampers_on_springs_and_in_spectra_are_refused_with_what_to_do() {
+        for sweep in ["kind = 'fragility'\nmodel = 'both'\n", "kind = 'compare'\n"] {
+            let told = plan(sweep).unwrap_err().to_string();
+            assert!(told.starts_with("sweep.toml, line 1"), "{told}");
+            assert!(told.contains("are followed by Housner's equation alone"), "{told}");
+        }
+    }
 }

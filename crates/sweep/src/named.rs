@@ -1,4 +1,4 @@
-//! `[[structure]]` of a sweep: as in a case file, and a name.
+//! `[[structure]]` of a sweep: as in a case file, and a name, a tendon, dampers.
 
 use std::fmt;
 
@@ -9,15 +9,36 @@ use serde::{
 use toml::Spanned;
 
 use cases::StructureSection;
+use rocking::members::{Damper, Members, Tendon};
 
-/// The key that a case file's section does not have.
-const NAME: &str = "name";
-
-/// A structure, and what the user calls it.
+/// A structure, what the user calls it, and what it has besides.
 #[derive(Clone, Debug)]
 pub(crate) struct NamedStructure {
     pub name: Option<Spanned<String>>,
+    pub members: Members,
     pub section: StructureSection,
+}
+
+/// What a section has that a case file's has not.
+#[derive(Default)]
+struct OwnKeys {
+    name: Option<Spanned<String>>,
+    tendon: Option<Tendon>,
+    damper: Option<Damper>,
+}
+
+impl OwnKeys {
+    const ALL: [&str; 3] = ["name", "tendon", "damper"];
+
+    /// Put the value of one of these keys aside.
+    fn take<'de, A: MapAccess<'de>>(&mut self, key: &str, map: &mut A) -> Result<(), A::Error> {
+        match key {
+            "tendon" => self.tendon = Some(map.next_value()?),
+            "damper" => self.damper = Some(map.next_value()?),
+            _ => self.name = Some(map.next_value()?),
+        }
+        Ok(())
+    }
 }
 
 impl<'de> Deserialize<'de> for NamedStructure {
@@ -36,29 +57,31 @@ impl<'de> Visitor<'de> for NamedVisitor {
     }
 
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<NamedStructure, A::Error> {
-        let mut name = None;
-        let rest = OtherKeys { map, name: &mut name };
+        let mut own = OwnKeys::default();
+        let rest = OtherKeys { map, own: &mut own };
         let section = StructureSection::deserialize(MapAccessDeserializer::new(rest))?;
-        Ok(NamedStructure { name, section })
+        let OwnKeys { name, tendon, damper } = own;
+        let members = Members { tendon, damper, friction: None };
+        Ok(NamedStructure { name, members, section })
     }
 }
 
-/// A map without its name, which is put aside.
+/// A map without those, which are put aside.
 struct OtherKeys<'a, A> {
     map: A,
-    name: &'a mut Option<Spanned<String>>,
+    own: &'a mut OwnKeys,
 }
 
-/// What becomes of a key: it is read, or it is the name and the seed is given back.
+/// What becomes of a key: it is read, or it is one of those and comes back with the seed.
 struct KeySeed<K>(K);
 
 impl<'de, K: DeserializeSeed<'de>> DeserializeSeed<'de> for KeySeed<K> {
-    type Value = Result<K::Value, K>;
+    type Value = Result<K::Value, (K, String)>;
 
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Self::Value, D::Error> {
         let key = String::deserialize(deserializer)?;
-        if key == NAME {
-            Ok(Err(self.0))
+        if OwnKeys::ALL.contains(&key.as_str()) {
+            Ok(Err((self.0, key)))
         } else {
             self.0.deserialize(key.into_deserializer()).map(Ok)
         }
@@ -76,8 +99,8 @@ impl<'de, A: MapAccess<'de>> MapAccess<'de> for OtherKeys<'_, A> {
             match self.map.next_key_seed(KeySeed(seed))? {
                 None => return Ok(None),
                 Some(Ok(key)) => return Ok(Some(key)),
-                Some(Err(back)) => {
-                    *self.name = Some(self.map.next_value()?);
+                Some(Err((back, key))) => {
+                    self.own.take(&key, &mut self.map)?;
                     seed = back;
                 }
             }

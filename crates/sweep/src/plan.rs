@@ -99,7 +99,8 @@ impl Plan {
         let sweep = &source.spec.sweep;
         let kind = *sweep.kind.get_ref();
         let model = model(source, kind)?;
-        let subjects = subjects(source)?;
+        let by_housner = !model.fem() && kind != SweepKind::Overturning;
+        let subjects = subjects(source, by_housner)?;
         let restitutions = match &sweep.restitution {
             Some(values) => Some(source.all_within("restitution", values, 0.0, 1.0)?),
             None => None,

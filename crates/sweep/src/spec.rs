@@ -15,6 +15,7 @@
 //! width_m = 12.2
 //! mass_kg = 680.1e3
 //! name = "tower"                      # in tables and figures; by kind, R and alpha unless given
+//! damper = { c_ns_per_m = 1e6 }       # also tendon = { stiffness_n_per_m = 1e8, pretension_n = 1e6 }: by Housner's equation
 //!
 //! [grid]                              # or all combinations of
 //! kind = ["block"]

@@ -220,13 +220,17 @@ fn at_levels(
         Kind::Block => "top",
         Kind::AFrame => "apex",
     };
+    let at = match subject.members.tendon {
+        Some(_) => "(1 + N0/W) g tan(alpha)",
+        None => "g tan(alpha)",
+    };
     let mut text = format!(
-        "  {} at PGA = g tan(alpha) = {:.3} g.\n\
+        "  {} at PGA = {at} = {:.3} g.\n\
          \n  | {measure} | P(overturn) | {:.0} % bounds | lifts | {top} moves, median / 84 % [mm] \
          | foot lifts [mm] |\n  \
          |---|---|---|---|---|---|",
         if plan.takes_vertical() { "Without vertical motion it lifts" } else { "It lifts" },
-        subject.uplift() / GRAVITY,
+        subject.lifts_at() / GRAVITY,
         100.0 * fragility.confidence
     );
     for row in rows {

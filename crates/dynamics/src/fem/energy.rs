@@ -11,6 +11,8 @@ pub struct Energy {
     pub input: f64,
     /// Taken by the dashpots.
     pub dissipated: f64,
+    /// The part of it that members take.
+    pub by_members: f64,
     /// Elastic energy of horizontal springs let go when their foot left the ground.
     pub released: f64,
 }
@@ -33,6 +35,11 @@ impl Energy {
     #[inline]
     pub fn largest(&self, so_far: f64) -> f64 {
         so_far.max(self.input.abs()).max((self.stored - self.initial).abs())
+    }
+
+    /// Taken by the springs, in landings (J).
+    pub(crate) fn by_springs(&self) -> f64 {
+        self.dissipated - self.by_members + self.released
     }
 
     /// What the account leaves unexplained: stored - initial - input + dissipated + released (J).

@@ -130,7 +130,7 @@ impl Recorder {
 
     /// The history, once the run is over.
     pub fn finish(self, finish: Finish) -> History {
-        let lost = finish.energy.dissipated + finish.energy.released;
+        let lost = finish.energy.by_springs();
         let (landings, airborne) = self.events.landings(self.end, lost);
         History {
             motion: self.motion,
@@ -199,7 +199,7 @@ impl Observer for Recorder {
             change,
             kinetic: view.body_kinetic(),
             speed: view.speed(),
-            lost: view.energy.dissipated + view.energy.released,
+            lost: view.energy.by_springs(),
         });
     }
 }

@@ -178,7 +178,7 @@ impl Model {
     /// What stands between body and ground. While both feet of a body without rotational inertia
     /// are in the air its dampers do not turn it: see `rotational_inertia`.
     #[inline(always)]
-    pub(super) fn elements_under(&self, feet: &[Foot; 2]) -> Elements {
+    pub(crate) fn elements_under(&self, feet: &[Foot; 2]) -> Elements {
         let mut all = self.elements;
         if self.massless() && !feet[0].closed() && !feet[1].closed() {
             all.dampers = all.dampers.map(Dampers::aloft);

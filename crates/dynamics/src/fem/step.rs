@@ -52,6 +52,14 @@ impl Stages {
         (input, dissipated)
     }
 
+    /// What members take of it (J).
+    #[inline(never)]
+    pub(crate) fn taken_by_members(&self, model: &Model, feet: &[Foot; 2]) -> f64 {
+        let elements = model.elements_under(feet);
+        let power = |j: usize| elements.add_dissipation(0.0, &self.q[j], &self.v[j]);
+        (0..3).map(|j| self.h * A[2][j] * power(j)).sum()
+    }
+
     /// Velocity at tau in 0..1 of the step that began at `start`: the cubic through that and the
     /// stages, the integral of their accelerations. The slope of [`Stages::position`] leaves out
     /// the start: it is a parabola, and errs by h^3 v'''/60 there.

@@ -91,15 +91,28 @@ pub(crate) fn comparison(p: &Parameters) -> Table {
     let mut head = vec!["on the record".to_string(), "Housner".to_string()];
     head.extend(all.iter().map(|column| column.heading.to_string()));
     let Some(m) = &p.matched else { return Table::new(head) };
+    let all: Vec<_> = all.iter().map(|column| column.matched).collect();
+    Table { head, rows: match_rows(m, &all) }
+}
+
+/// The same of a structure with a tendon or dampers, beside Housner's equation with them.
+pub(super) fn with_members(p: &Parameters) -> Option<Table> {
+    let m = p.match_with_members.as_ref().filter(|_| p.members().act())?;
+    let head = ["on the record, with members", "Housner", "finite elements"];
+    Some(Table { head: head.map(String::from).into(), rows: match_rows(m, &[Some(m)]) })
+}
+
+/// Name, Housner's value in `m`, and that of each match.
+fn match_rows(m: &Match, all: &[Option<&Match>]) -> Vec<Vec<String>> {
     let row = |name: &str, housner: String, value: &dyn Fn(&Match) -> String| {
         let mut row = vec![name.to_string(), housner];
-        row.extend(all.iter().map(|column| column.matched.map_or(String::new(), value)));
+        row.extend(all.iter().map(|matched| matched.map_or(String::new(), value)));
         row
     };
     let mm = |x: f64| format!("{:.2} mm", x * 1e3);
     let count = |x: Option<usize>| x.map_or("-".to_string(), |n| n.to_string());
     let none = String::new;
-    let rows = vec![
+    vec![
         row("peak horizontal displacement", mm(m.peak_horizontal_housner_m), &|m| {
             mm(m.peak_horizontal_fem_m)
         }),
@@ -123,8 +136,7 @@ pub(crate) fn comparison(p: &Parameters) -> Table {
         row("bounces", none(), &|m| m.bounces.to_string()),
         row("settlement", none(), &|m| format!("{:.5} mm", m.settlement_m * 1e3)),
         row("energy residual", none(), &|m| format!("{:.1e}", m.energy_residual)),
-    ];
-    Table { head, rows }
+    ]
 }
 
 /// Landings from large leans to small.

@@ -121,36 +121,43 @@ impl<S: Scalar> Restraint<S> {
         (c[0], c[1]) = (start.w, start.rate * h);
         rate[0] = c[1];
         let (mut sin, mut cos, mut upright) = (zero, zero, zero);
-        let (mut square, mut inverse, mut along) = (zero, zero, zero);
+        let (mut square, mut inverse) = (zero, zero);
         let (mut cos2, mut press) = (zero, [0.0; N]);
+        let (pulls, damps) = (self.pull.re() > 0.0, self.damping.re() > 0.0);
         for k in 0..N - 2 {
+            let over = 1.0 / k.max(1) as f64;
+            let mut earlier = S::zero();
             if k == 0 {
                 (sin[0], cos[0]) = (start.sin, start.cos);
-                square[0] = self.square - self.twice * sin[0];
-                inverse[0] = S::one() / square[0].sqrt();
             } else {
-                let over = 1.0 / k as f64;
                 // rate[j - 1] = j c_j
                 sin[k] = -product(&rate, &cos, k - 1) * over;
                 cos[k] = product(&rate, &sin, k - 1) * over;
-                square[k] = -(self.twice * sin[k]);
-                let sum = (1..=k).fold(S::zero(), |sum, j| {
-                    sum + square[j] * inverse[k - j] * (0.5 * j as f64 - k as f64)
-                });
-                inverse[k] = sum * over / square[0];
+                earlier = ground.dgamma * sin[k - 1] + ground.db * cos[k - 1];
             }
-            upright[k] = self.cos_alpha * cos[k] + self.sin_alpha * sin[k];
-            cos2[k] = product(&upright, &upright, k);
-            along[k] = cos[k] - self.slack * product(&cos, &inverse, k);
-            let earlier =
-                if k > 0 { ground.dgamma * sin[k - 1] + ground.db * cos[k - 1] } else { S::zero() };
+            let (mut tendon, mut damper, mut lifted) = (S::zero(), S::zero(), S::zero());
+            if pulls {
+                square[k] = if k == 0 { self.square } else { S::zero() } - self.twice * sin[k];
+                inverse[k] = if k == 0 {
+                    S::one() / square[0].sqrt()
+                } else {
+                    let sum = (1..=k).fold(S::zero(), |sum, j| {
+                        sum + square[j] * inverse[k - j] * (0.5 * j as f64 - k as f64)
+                    });
+                    sum * over / square[0]
+                };
+                tendon = self.pull * (cos[k] - self.slack * product(&cos, &inverse, k));
+            }
+            if damps {
+                upright[k] = self.cos_alpha * cos[k] + self.sin_alpha * sin[k];
+                cos2[k] = product(&upright, &upright, k);
+                damper = self.damping * h * product(&cos2, &rate, k);
+                lifted = self.damping / h * product(&upright, &rate, k) * 0.5;
+            }
             let weight = ground.gamma * sin[k] + ground.b * cos[k] + earlier;
-            let tendon = self.pull * along[k];
-            let damper = self.damping * h * product(&cos2, &rate, k);
             // (1), (3)
             c[k + 2] = -(q * weight + h * h * tendon + damper) * (1.0 / ((k + 1) * (k + 2)) as f64);
             rate[k + 1] = c[k + 2] * (k + 2) as f64;
-            let lifted = self.damping / h * product(&upright, &rate, k) * 0.5;
             press[k] = (self.share * (tendon + lifted)).re();
         }
         RestrainedSeries { lean: c, press }

@@ -147,7 +147,11 @@ impl<'a, S: Scalar, const V: bool> Walk<'a, S, V> {
         let q = set.p2 * (set.dt * set.dt);
         let quiet = (set.lift / set.unit).re().abs();
         let state = set.begin(theta, rate);
-        let pace = if set.restraint.is_some() { Pace::Fast } else { Pace::of(q.re()) };
+        let pace = match &set.restraint {
+            None => Pace::of(q.re()),
+            // those whose steps an interval takes
+            Some(restraint) => Pace::of(q.re() + restraint.growth(set.dt)).max(Pace::Walk),
+        };
         Self { set, state, out, q, pace, quiet }
     }
 

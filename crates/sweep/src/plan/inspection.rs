@@ -158,6 +158,9 @@ impl Plan {
         for subject in &self.subjects {
             // the parts hold the name
             text += &format!("{} {:?} {:?}", subject.name, subject.structure, subject.restitution);
+            if subject.members.act() {
+                text += &format!(" {:?}", subject.members);
+            }
             let given = subject.doubts.iter().cloned().map(SweepDoubt::Given);
             given.for_each(|doubt| doubts.add(&subject.name, doubt));
         }

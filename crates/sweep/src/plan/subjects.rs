@@ -12,6 +12,7 @@ use crate::{
 use cases::doubts::Doubt;
 use files::message::rounded;
 use rocking::{
+    members::Members,
     scalar::GRAVITY,
     structure::{self, Body, Structure},
 };
@@ -25,6 +26,8 @@ pub struct Subject {
     pub structure: Structure,
     /// As the models have it.
     pub body: Body<f64>,
+    /// A tendon and dampers.
+    pub members: Members,
     /// Its own velocity restitution.
     pub restitution: f64,
     /// (rad)
@@ -45,24 +48,51 @@ impl Subject {
         let name =
             format!("{kind} R {} m, alpha {}", rounded(body.radius(), 4), rounded(body.alpha(), 4));
         let (alpha, p) = (body.alpha(), body.p());
-        Self { name, structure, body, restitution, alpha, p, doubts: Vec::new() }
+        let members = Members::default();
+        Self { name, structure, body, members, restitution, alpha, p, doubts: Vec::new() }
     }
 
-    /// g tan(alpha): what lifts it at rest (m/s2).
+    /// The same with a tendon and dampers, which its name tells.
+    fn with_members(mut self, members: Members) -> Self {
+        for (there, what) in
+            [(members.tendon.is_some(), ", tendon"), (members.damper.is_some(), ", dampers")]
+        {
+            self.name += if there { what } else { "" };
+        }
+        Self { members, ..self }
+    }
+
+    /// Ground acceleration that lifts it at rest, with its tendon (m/s2).
+    pub(crate) fn lifts_at(&self) -> f64 {
+        let pull = self.members.tendon.map_or(0.0, |tendon| tendon.pretension);
+        self.uplift() * (1.0 + pull / (self.body.mass * GRAVITY))
+    }
+
+    /// g tan(alpha): what lifts it at rest, without a tendon (m/s2).
     pub(crate) fn uplift(&self) -> f64 {
         GRAVITY * self.alpha.tan()
     }
 }
 
-/// All structures that the file asks for.
-pub(super) fn subjects(source: &SweepSource) -> Result<Vec<Subject>, SweepError> {
+/// What to do with a tendon and dampers where histories are not by Housner's equation alone.
+const MEMBERS: &str = "a tendon and dampers are followed by Housner's equation alone, in kinds \
+                       fragility and rocking; write model = \"housner\", or leave them out";
+
+/// All structures that the file asks for; `by_housner`: whether their histories are by Housner's
+/// equation alone.
+pub(super) fn subjects(source: &SweepSource, by_housner: bool) -> Result<Vec<Subject>, SweepError> {
     let mut subjects = Vec::new();
     for named in &source.spec.structure {
-        let NamedStructure { name, section } = named.get_ref();
+        let NamedStructure { name, members, section } = named.get_ref();
         let (structure, e) = section
             .checked(&source.path)
             .map_err(|e| source.at(named, reason(&source.path, &e.to_string())))?;
-        let mut subject = Subject::new(structure, e);
+        let members =
+            members.checked(&structure.body()).map_err(|e| source.at(named, e.to_string()))?;
+        if members.act() && !by_housner {
+            return Err(source.at(named, MEMBERS));
+        }
+        let mut subject = Subject::new(structure, e).with_members(members);
         subject.doubts = section.doubts(&structure);
         if let Some(name) = name {
             subject.name = checked_name(source, name)?;

@@ -90,6 +90,9 @@ impl TimeLoop<'_> {
         }
         self.state = stages.end();
         self.energy.book(stored, input, dissipated);
+        if !self.model.elements.is_empty() {
+            self.energy.by_members += stages.taken_by_members(self.model, &self.feet);
+        }
         self.scale = self.energy.largest(self.scale);
         self.guess = stages.a[2];
         self.rate = cautious(stages.rate);
