@@ -194,6 +194,11 @@ fn a_pier_that_overturns_is_told_to() {
     let json = folder.text("out/parameters.json");
     let parameters = ElasticParameters::parse("parameters.json", &json).unwrap();
     assert!(!parameters.on_record.unwrap().whole);
+    // the program's steps see it fall, too, after the push and before its end
+    let program = parameters.program.unwrap().on_record.unwrap();
+    let falls = program.falls_s.unwrap();
+    assert!(falls > 1.0 && falls < 5.99 && program.gives_up_s.is_none(), "{program:?}");
+    assert!(said.contains("it overturns in these steps at "), "{said}");
     // both models' histories to their ends, cells of the one that ends before are empty
     let history = folder.text("out/history.csv");
     let columns: Vec<Vec<&str>> =
@@ -229,4 +234,24 @@ fn a_crowded_screen_has_thirty_lines_at_most() {
     assert!(screen.lines().all(|line| line.chars().count() <= 100), "{screen}");
     assert_eq!(screen.lines().filter(|line| line.starts_with("CHECK ")).count(), 3, "{screen}");
     assert!(screen.lines().last().is_some_and(|line| line.starts_with("report ")), "{screen}");
+}
+
+/// Springs that are of no use in a program's steps: the screen names no deck of them, and
+/// `tune export` says what they are.
+#[test]
+fn a_deck_of_refused_springs_is_not_offered() {
+    let block = "[structure]\nkind = 'block'\ntotal_height_m = 2.0\nwidth_m = 0.5\n\
+                 mass_kg = 500.0\n";
+    let folder = TestFolder::with(&[("block.toml", block)]);
+    let run = "run block.toml --quiet --no-figures --no-report --no-front --duration 4";
+    let export = "export --parameters out/parameters.json --format openseespy --stepping even \
+                  --out even.py";
+    for (step, refused) in [("0.02", true), ("0.001", false)] {
+        let said = folder.runs(&format!("{run} --step {step} --integrator trbdf2")).stdout;
+        assert_eq!(said.contains("NOT to be used: "), refused, "{said}");
+        assert_eq!(said.contains("its deck"), !refused, "{said}");
+        let told = folder.runs(export).stderr;
+        let line = "the springs of this deck are NOT to be used: ";
+        assert_eq!(told.contains(line), refused, "{told}");
+    }
 }

@@ -125,7 +125,8 @@ fn rigid(
     let (text, line) = match stepping {
         Stepping::Events => (deck_of(&parameters, &record, o.format, o.accuracy, until)?, line),
         stepping => {
-            told(stepped_deck(&parameters, &record, o.format, stepping, until)?, o.format, line)
+            let deck = stepped_deck(&parameters, &record, o.format, stepping, until)?;
+            told(deck, (o.format, stepping), parameters.program.as_ref(), line)
         }
     };
     Ok(ExportedDeck { text, record, line })
@@ -167,12 +168,22 @@ pub(super) fn predictable_to(
     }
 }
 
-/// The text of a deck, and what to say of it besides the record.
-fn told(deck: SteppedDeck, format: DeckFormat, record: String) -> (String, String) {
+/// The text of a deck on a program's springs, and what to say of it besides the record.
+fn told<U>(
+    deck: SteppedDeck,
+    (format, stepping): (DeckFormat, Stepping),
+    program: Option<&ProgramRow<U>>,
+    record: String,
+) -> (String, String) {
     // a table of springs has no history of its own
     let name = if format == DeckFormat::Csv { "a history in these steps" } else { "the deck" };
-    let (text, line) = deck.told(name);
-    (text, line.map_or(record.clone(), |line| format!("{record}\n{line}")))
+    let (text, ends) = deck.told(name);
+    // springs for substeps are others, which were not measured
+    let program = program.filter(|_| stepping == Stepping::Even);
+    let refused = program.and_then(ProgramRow::not_to_be_used);
+    let refused = refused.map(|why| format!("the springs of this deck are {why}"));
+    let lines = [Some(record), ends, refused];
+    (text, lines.into_iter().flatten().collect::<Vec<_>>().join("\n"))
 }
 
 /// The deck of an elastic structure, with our own history to check itself against.
@@ -188,9 +199,10 @@ fn elastic(
     match (stepping, &parameters.program) {
         (Stepping::Events, _) => {}
         (stepping, Some(program)) => {
-            let program = CornerProgram::new(&assembled, program, stepping)?;
-            let deck = stepped_deck_of(&assembled, &program, &record, o.format, until)?;
-            let (text, line) = told(deck, o.format, excitation.line());
+            let stepped = CornerProgram::new(&assembled, program, stepping)?;
+            let deck = stepped_deck_of(&assembled, &stepped, &record, o.format, until)?;
+            let how = (o.format, stepping);
+            let (text, line) = told(deck, how, Some(program), excitation.line());
             return Ok(ExportedDeck { text, record, line });
         }
         (_, None) => return Err(ExportError::NoProgram.into()),

@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use super::{
-    CornerProgram, DeckFormat, ExportError,
+    CornerProgram, DeckFormat, EvenEnds, ExportError,
     language::{Language, PYTHON, TCL, record_note},
     model::digits,
     plain::{self, NamedSprings},
@@ -12,6 +12,7 @@ use super::{
     stepping::EvenSteps,
 };
 use dynamics::spring::{Chain, Springs};
+use files::message::significant;
 use frames::frame::{Frame, FrameDamper, FrameLayout, FrameMember, FrameTendon, NodePoint};
 use rocking::scalar::GRAVITY;
 use strong_motion::Record;
@@ -29,6 +30,8 @@ const SMALL_MOTION: f64 = 0.01;
 /// From this part of a record's step on dashpots of beams work where steps follow touches: the
 /// first step is shorter.
 const SMALL_STEP: f64 = 1e-4;
+/// Difference of two beams' damping coefficients that is rounding, relative.
+const SAME: f64 = 1e-9;
 /// Radians of the structure's sway that a step may take: leaning it sways some three times as fast
 /// as fixed, and TRBDF2 lags by a twelfth of the step's square.
 const SWAY: f64 = 0.03;
@@ -76,9 +79,7 @@ pub struct ElasticDeck<'a> {
     pub accuracy: f64,
     /// The program with steps of one size that the springs are for, in place of steps that follow
     /// touches.
-    pub program: Option<&'a CornerProgram>,
-    /// When the emulation of that program gives up on the record, which is where the deck ends (s).
-    pub gives_up_s: Option<f64>,
+    pub program: Option<(&'a CornerProgram, EvenEnds)>,
 }
 
 impl ElasticDeck<'_> {
@@ -96,6 +97,9 @@ impl ElasticDeck<'_> {
             DeckFormat::Markdown => {
                 let even = self.even();
                 let mut text = plain::markdown(self.title, even.as_ref(), &self.places());
+                if let Some(damping) = self.damping("") {
+                    text.push_str(&format!("\n{damping}\n"));
+                }
                 if let Some(damped) = even.map(|even| even.forces_at()).filter(|&by| by < 1.0) {
                     text.push_str(&format!(
                         "\nUnder this integrator OpenSees' damping objects act too strongly: in a \
@@ -120,8 +124,7 @@ impl ElasticDeck<'_> {
 
     /// Settings of steps of one size, if the springs are for such.
     fn even(&self) -> Option<EvenSteps> {
-        let steps = self.program.map(CornerProgram::steps);
-        steps.map(|steps| EvenSteps { gives_up_s: self.gives_up_s, ..steps })
+        self.program.map(|(program, ends)| EvenSteps { ends, ..program.steps() })
     }
 
     /// The corners from the left, and what is under them.
@@ -176,6 +179,8 @@ impl ElasticDeck<'_> {
             ("NODES", language.lines(self.nodes())),
             ("TOP", (self.top.0 + 1).to_string()),
             ("BEAMS", language.lines(self.beams(language, damped))),
+            ("DAMPING", self.damping_note(damped)),
+            ("OURS", "our own finite elements".into()),
             ("SHEAR", self.shear(language)),
             (
                 "SHEAR_SPRINGS",
@@ -247,6 +252,53 @@ impl ElasticDeck<'_> {
             ];
             [ends, numbers].concat()
         })
+    }
+
+    /// What damping the beams have, with its coefficients over stiffness, what a deck has `here` of
+    /// it, and that another one errs otherwise; nothing of a structure without.
+    pub(super) fn damping(&self, here: &str) -> Option<String> {
+        let over = |damping: f64, stiffness: f64| match stiffness > 0.0 {
+            true => damping / stiffness,
+            false => 0.0,
+        };
+        let of = |member: &FrameMember| {
+            let s = &member.section;
+            [over(s.axial_damping, s.axial), over(s.bending_damping, s.bending)]
+        };
+        let mut all: Vec<[f64; 2]> = Vec::new();
+        for pair in self.layout.members.iter().map(of).filter(|[a, b]| a + b > 0.0) {
+            let same = |other: &[f64; 2]| {
+                pair.iter().zip(other).all(|(a, b)| (a - b).abs() <= SAME * a.abs())
+            };
+            if !all.iter().any(same) {
+                all.push(pair);
+            }
+        }
+        let one = |[axial, bending]: &[f64; 2]| {
+            format!("{} s axial, {} s bending", significant(*axial, 4), significant(*bending, 4))
+        };
+        let all = all.iter().map(one).collect::<Vec<_>>().join("; ");
+        (!all.is_empty()).then(|| {
+            format!(
+                "Damping of the beams: proportional to the stiffness of each, with a coefficient \
+                 for axial deformation and another one for bending ({all}){here}. What is measured \
+                 of these springs holds for it: another kind (Rayleigh, one coefficient for both) \
+                 errs otherwise."
+            )
+        })
+    }
+
+    /// The same for OpenSees, whose damping is this many times that of the structure.
+    fn damping_note(&self, damped: f64) -> String {
+        let here = match damped < 1.0 {
+            true => format!(
+                ", below {damped:.3} of it, for OpenSees' damping objects act too strongly under \
+                 HHT"
+            ),
+            false => ", by OpenSees' damping objects (SecStif)".into(),
+        };
+        let damping = self.damping(&here).unwrap_or("Damping of the beams: none.".into());
+        plain::lines(&damping, "\n# ")
     }
 
     /// Beams that give in shear, with the stiffness and the dashpot of the spring between the turns

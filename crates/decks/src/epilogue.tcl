@@ -44,7 +44,7 @@ proc follow {feet} {
 
 # One run: OpenSees' Tcl interpreter does not forget a model's loads, so that a second one needs a new interpreter. If the report at the
 # end warns of touches or lifts within too long a step, make `accuracy` a quarter of what it is and run again.
-puts stderr "OpenSees tells of every step that does not converge; such steps are repeated shorter"
+@REFUSAL@puts stderr "OpenSees tells of every step that does not converge; such steps are repeated shorter"
 set rows [run]
 
 set out [open "[file rootname [info script]]_history.csv" w]
@@ -80,13 +80,13 @@ set good 1
 puts [format "OpenSees, %g s: %s" [lindex $rows end 0] [steps::report]]
 if {$steps::refused > 0} { puts "  OpenSees' messages of failed convergence are of steps that were repeated shorter" }
 if {$compared < $samples} {
-    puts [format "  compared to %g s: beyond, the motion cannot be predicted" [expr {($compared - 1) * $recordDt}]]
+    puts [format "  compared to %g s: beyond, @BEYOND@" [expr {($compared - 1) * $recordDt}]]
 }
 foreach {key value} $expected {
     if {abs($found($key) - $value) > 0.01 * $scale($key)} { set good 0 }
     puts [format "  %-8s %12.4f mm, expected %12.4f mm" $key [expr {$found($key) * 1e3}] [expr {$value * 1e3}]]
 }
-puts "within 1 %: [expr {$good ? {yes} : {no}}]"
+puts "within 1 %@OF@: [expr {$good ? {yes} : {no}}]"
 if {[llength $rows] < $samples} {
     set judged [expr {($compared - 1) * $recordDt}]
     stop "no convergence after [lindex $rows end 0] s of [expr {($samples - 1) * $recordDt}] s; up to $judged s it is judged above"

@@ -24,6 +24,9 @@ pub(super) struct Language {
     /// What ends the epilogue, and what stops it with a reason.
     ends: &'static str,
     stops: [&'static str; 2],
+    /// The same of springs that are of no use, and what prints a line.
+    ends_refused: &'static str,
+    prints: [&'static str; 2],
     /// Springs of beams that give in shear, and their list: its head, and its rows' and its own
     /// end.
     pub shear_springs: &'static str,
@@ -50,6 +53,8 @@ pub(super) static PYTHON: Language = Language {
     epilogue: include_str!("epilogue.py"),
     ends: "    return 0 if good else 1\n",
     stops: ["    stop(\"", "\")\n"],
+    ends_refused: "    return 4 if good else 1\n",
+    prints: ["    print(\"", "\")\n"],
     shear_springs: include_str!("elastic_shear.py"),
     shear_list: ["SHEAR = {", "}"],
     brackets: ["(", ")"],
@@ -67,6 +72,8 @@ pub(super) static TCL: Language = Language {
     epilogue: include_str!("epilogue.tcl"),
     ends: "exit [expr {1 - $good}]\n",
     stops: ["stop \"", "\"\n"],
+    ends_refused: "exit [expr {$good ? 4 : 1}]\n",
+    prints: ["puts \"", "\"\n"],
     shear_springs: include_str!("elastic_shear.tcl"),
     shear_list: ["set shear {", "}"],
     brackets: ["{", "}"],
@@ -129,7 +136,14 @@ impl Language {
         for (name, fragment) in fragments {
             text = text.replace(&format!("@{name}@"), fragment.trim_end());
         }
-        for (name, value) in values {
+        let refusal = even.and_then(|even| self.refusal(even)).unwrap_or_default();
+        let beyond = even.map(|even| even.ends).unwrap_or_default().beyond();
+        let mut told = vec![("REFUSAL", refusal), ("BEYOND", beyond.into())];
+        // a deck of even steps is not to find what stiffer springs do in other steps
+        let of = if even.is_some() { " of the emulation" } else { "" };
+        told.push(("OF", of.into()));
+        told.extend(even.map(|_| ("OURS", "the emulation of these steps".into())));
+        for (name, value) in told.iter().chain(values) {
             text = text.replace(&format!("@{name}@"), value);
         }
         let vertical = record
@@ -165,14 +179,23 @@ impl Language {
             false => format!("{line}\n"),
         };
         let text: String = lines.map(line).collect();
-        let Some(time) = even.gives_up_s else { return Ok(text) };
+        let refusal = self.refusal(even);
+        let ends = if refusal.is_some() { self.ends_refused } else { self.ends };
+        let text = text.replace(self.ends, &format!("{}{ends}", refusal.unwrap_or_default()));
+        let Some(time) = even.ends.gives_up_s else { return Ok(text) };
         let [before, after] = self.stops;
         let reason = format!(
             "the emulation of these steps gives up at {} s, where the deck ends: take another \
              integrator or another step, longer ones too",
             significant(time, 4)
         );
-        Ok(text.replace(self.ends, &format!("{before}{reason}{after}")))
+        Ok(text.replace(ends, &format!("{before}{reason}{after}")))
+    }
+
+    /// A line that prints why the springs are not to be used, if they are not.
+    fn refusal(&self, even: &EvenSteps) -> Option<String> {
+        let [before, after] = self.prints;
+        even.warning().map(|why| format!("{before}{why}.{after}"))
     }
 
     /// Samples, four a line.

@@ -38,6 +38,7 @@ fn fill(language: &Language, template: &str, model: &DeckModel) -> Result<String
     let e = &model.expected;
     let values = [
         ("TITLE", model.title()),
+        ("OURS", "`tune simulate`".into()),
         ("GRAVITY", digits(GRAVITY)),
         ("HEIGHT", digits(body.height)),
         ("HALF_WIDTH", digits(body.half_width)),

@@ -6,6 +6,9 @@ use super::{model::digits, stepping::EvenSteps};
 use dynamics::spring::{Chain, Springs};
 use files::message::quantity;
 
+/// Characters of a line of a note.
+const LINE: usize = 92;
+
 /// A foot or corner by name, and the units under it.
 pub(super) type NamedSprings = (String, Springs<Chain>);
 
@@ -80,6 +83,20 @@ pub(super) fn markdown(title: &str, even: Option<&EvenSteps>, places: &[NamedSpr
     for row in rows(places) {
         // writing to a String cannot fail
         let _ = writeln!(text, "| {} |", row.join(" | "));
+    }
+    text
+}
+
+/// Words in lines, with this between them.
+pub(super) fn lines(words: &str, between: &str) -> String {
+    let mut text = String::new();
+    let mut long = 0;
+    for word in words.split(' ') {
+        let (space, size) = if long == 0 { ("", 0) } else { (" ", 1) };
+        let fits = long + size + word.len() <= LINE;
+        text += if fits { space } else { between };
+        text += word;
+        long = if fits { long + size } else { 0 } + word.len();
     }
     text
 }

@@ -25,7 +25,7 @@ mod sheet;
 
 use std::fmt::{Display, Write};
 
-use super::model::digits;
+use super::{model::digits, plain::lines};
 use cases::{cases, loads, record};
 pub use function::sap_function;
 use links::links;
@@ -67,8 +67,10 @@ $     FOOT links or of the load cases.
 /// The whole file.
 pub(super) fn tables(parts: &SapModel) -> String {
     let why = parts.even.not_to_be_used.map_or(String::new(), |why| format!("$ {why}.\n"));
+    let damping = parts.damping.as_ref();
+    let damping = damping.map_or(String::new(), |of| format!("$  8. {}\n", lines(of, "\n$     ")));
     let (title, of_model) = (&parts.title, &parts.notes);
-    let mut text = format!("$ {title}\n{why}{NOTES}{of_model}{}\n", parts.expected());
+    let mut text = format!("$ {title}\n{why}{NOTES}{of_model}{damping}{}\n", parts.expected());
     for table in
         [control(), geometry(parts), links(parts), loads(parts), cases(parts), record(parts)]
             .into_iter()

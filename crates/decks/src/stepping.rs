@@ -24,6 +24,7 @@ use strong_motion::Record;
 use crate::{
     DeckFormat, Expected, ExportError,
     beside::housner_range,
+    even_ends::EvenEnds,
     export_model, member,
     model::{ACCURACY, DeckModel, with_inertia},
 };
@@ -87,8 +88,8 @@ pub(crate) struct EvenSteps {
     pub errors: [Option<ProgramErrors>; 2],
     /// Whether the program is ETABS.
     pub etabs: bool,
-    /// When the emulation gives up on the record, which is where a deck ends (s).
-    pub gives_up_s: Option<f64>,
+    /// Where a deck of them ends.
+    pub ends: EvenEnds,
 }
 
 impl EvenSteps {
@@ -109,7 +110,7 @@ impl EvenSteps {
             not_to_be_used: row.not_to_be_used(),
             errors: [row.expected.synthetic, row.expected.earthquakes],
             etabs: row.is_etabs(),
-            gives_up_s: None,
+            ends: EvenEnds::default(),
         }
     }
 
@@ -273,7 +274,8 @@ impl Stepped {
         let model = DeckModel::new(&self.parameters, record, &self.expected(motion, compared))?;
         let beside = (format == DeckFormat::Sap2000Sheet)
             .then(|| housner_range(&self.given, &self.parameters, record, compared));
-        let even = Some(EvenSteps { gives_up_s, ..self.steps });
+        let ends = EvenEnds { gives_up_s, compared_by_steps: false };
+        let even = Some(EvenSteps { ends, ..self.steps });
         let model = DeckModel { even, housner: beside.flatten(), ..model };
         let text = export_model(&model, format)?;
         Ok(SteppedDeck { text, gives_up_s, until })

@@ -1,6 +1,8 @@
 //! Decks without the programs they are for: they hold every number, to the last bit, and parse.
 
+mod corner_history;
 mod elastic_tables;
+mod refusal;
 mod stepping;
 
 use std::{collections::HashMap, process::Command};
@@ -47,7 +49,7 @@ fn even_steps() -> EvenSteps {
         not_to_be_used: None,
         errors: [None; 2],
         etabs: false,
-        gives_up_s: None,
+        ends: EvenEnds::default(),
     }
 }
 

@@ -117,12 +117,14 @@ pub struct FixedStepHistory {
 }
 
 /// What a history cost.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FixedStepWork {
     /// Steps that held.
     pub steps: usize,
     /// Steps that were given up, and taken shorter if that is allowed.
     pub failed: usize,
+    /// Begin of the first of these that was a part of a step already (s).
+    pub part_failed_s: Option<f64>,
     /// Iterations, those of failed steps too.
     pub iterations: usize,
     /// Events at which a step was cut.
@@ -151,6 +153,8 @@ struct SubstepPace {
     touched: bool,
 }
 
+/// Part of a step below which it is not a whole one.
+const WHOLE: f64 = 0.75;
 /// Part of a step within which times count as equal.
 const SAME: f64 = 1e-6;
 
@@ -307,6 +311,9 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
                 pace.size = (2.0 * pace.size).min(longest);
             } else {
                 work.failed += 1;
+                if this < WHOLE * longest {
+                    work.part_failed_s.get_or_insert(begin + done);
+                }
                 if 0.5 * this < least * (1.0 - SAME) {
                     return Err(GaveUp { time: begin + done, step: this });
                 }

@@ -25,12 +25,18 @@ use crate::{
     model::FixedStepModel,
 };
 
+/// Rotation of a base over that at which it topples, beyond which a structure falls: as of a rigid
+/// body.
+const FALLING: f64 = 2.0;
+
 /// A frame on its springs.
 #[derive(Clone, Copy, Debug)]
 pub struct FixedStepFrame<'a> {
     frame: &'a Frame,
     /// Under each corner.
     units: &'a [Springs<Chain>],
+    /// Rotation of a base beyond which it falls (rad).
+    falls_at: f64,
 }
 
 /// The matrix of the iteration, absorbers condensed.
@@ -52,7 +58,7 @@ impl<'a> FixedStepFrame<'a> {
         if given != needed {
             return Err(EquilibriumError::Mismatch { what: "springs", given, needed });
         }
-        Ok(Self { frame, units })
+        Ok(Self { frame, units, falls_at: FALLING * frame.topples_at() })
     }
 
     /// Number of the frame's coordinates, which come first.
@@ -252,5 +258,13 @@ impl FixedStepModel for FixedStepFrame<'_> {
         for ((at, place, _), reach) in self.corners().zip(self.places(q)) {
             each(q[at + 1] - reach.place[1], v[at + 1] - place.velocity(&reach, v)[1]);
         }
+    }
+
+    fn has_fallen(&self, q: &Vec<f64>) -> bool {
+        self.frame.has_fallen(&q[..self.n()])
+    }
+
+    fn is_falling(&self, q: &Vec<f64>) -> bool {
+        self.frame.has_turned(self.falls_at, &q[..self.n()])
     }
 }

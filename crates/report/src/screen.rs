@@ -329,7 +329,7 @@ fn next(run: &Run, written: &Written, crowding: Crowding, lines: &mut Vec<String
                 let rest = format!("all settings: {place}");
                 parts_at_most(crowding.settings, lines, "  set to  ", &settings, &rest);
             }
-            if written.decks && program.deck_of_even_steps {
+            if written.decks && program.deck_of_even_steps && program.usable {
                 let deck = format!("python3 {}", written.file(&format!("decks/{EVEN_DECK}")));
                 lines.extend(wrapped("its deck  ", &deck));
             }

@@ -12,7 +12,8 @@ use crate::{
 };
 use cases::{Asked, ElasticCase};
 use decks::{
-    ACCURACY, CornerHistory, CornerProgram, DeckFormat, ElasticDeck, ExportError, samples_to,
+    ACCURACY, CornerHistory, CornerProgram, DeckFormat, ElasticDeck, EvenEnds, ExportError,
+    samples_to,
 };
 use dynamics::spring::{Chain, Springs};
 use figures::Figure;
@@ -114,13 +115,13 @@ pub fn deck(
     (history, until): (&ElasticHistory, Option<f64>),
     (format, accuracy): (DeckFormat, f64),
 ) -> Result<String, ExportError> {
-    deck_of(assembled, (springs, None, None), record, (&history.q, until), (format, accuracy))
+    deck_of(assembled, (springs, None), record, (&history.q, until), (format, accuracy))
 }
 
 /// The same of any springs and history, which is compared up to a time (s) if one is given.
 fn deck_of(
     assembled: &Assembled,
-    (springs, program, gives_up_s): (&[Springs<Chain>], Option<&CornerProgram>, Option<f64>),
+    (springs, program): (&[Springs<Chain>], Option<(&CornerProgram, EvenEnds)>),
     record: &Record,
     (history, until): (&[Vec<f64>], Option<f64>),
     (format, accuracy): (DeckFormat, f64),
@@ -145,7 +146,6 @@ fn deck_of(
         frequency_hz: assembled.structure.fixed_base_frequency_hz(),
         accuracy,
         program,
-        gives_up_s,
     }
     .text(format)
 }

@@ -117,6 +117,7 @@ impl<'a> SapModel<'a> {
             until: (deck.compared < deck.samples).then(|| deck.compared_s()),
             even,
             housner: None,
+            damping: deck.damping(""),
             joints: build.joints,
             sections: build.sections,
             bars: build.bars,

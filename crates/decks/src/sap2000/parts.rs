@@ -7,6 +7,7 @@ use crate::{
     stepping::EvenSteps,
 };
 use dynamics::spring::{Chain, Springs};
+use files::message::significant;
 use strong_motion::Record;
 
 /// Length of a link over the structure's height: long enough that importing merges no joints. The
@@ -107,6 +108,8 @@ pub(crate) struct SapModel<'a> {
     pub even: EvenSteps,
     /// Largest and least U1 by Housner's equation, up to then (m).
     pub housner: Option<(f64, f64)>,
+    /// What damping its beams have, if they have some.
+    pub damping: Option<String>,
 }
 
 impl<'a> SapModel<'a> {
@@ -146,6 +149,7 @@ impl<'a> SapModel<'a> {
             until: (e.compared < e.samples).then(|| model.compared_s()),
             even,
             housner: model.housner,
+            damping: None,
         })
     }
 
@@ -163,7 +167,7 @@ impl<'a> SapModel<'a> {
     pub(crate) fn expected(&self) -> String {
         let [u, v] = self.peaks;
         let until = self.until.map_or(String::new(), |until| {
-            format!(", to {until} s (beyond, the motion cannot be predicted)")
+            format!(", to {} s (beyond, {})", significant(until, 4), self.even.ends.beyond())
         });
         let errors =
             self.even.errors().map_or(String::new(), |errors| format!("$ Measured: {errors}.\n"));

@@ -1,7 +1,7 @@
 //! SAP2000 tables of elastic structures.
 
 use super::{Tables, number, read_s2k, refers_to_what_it_defines};
-use crate::{CornerProgram, DeckFormat, ElasticDeck, ExportError, Stepping};
+use crate::{CornerProgram, DeckFormat, ElasticDeck, EvenEnds, ExportError, Stepping};
 use dynamics::spring::{Chain, Springs};
 use fixed_steps::Integrator;
 use frames::{assembled::Assembled, structure::ElasticStructure};
@@ -12,21 +12,21 @@ use rocking::{
 };
 use strong_motion::Record;
 
-const PIER: &str = "kind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\n\
+pub(super) const PIER: &str = "kind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\n\
     footing_mass_kg = 60e3\nfooting_height_m = 1.5\nfrequency_hz = 2.0\ndamping_ratio = 0.02\n\
     column_mass_kg = 40e3\nelements = 3\n";
-const LEGS: &str = "kind = 'aframe'\nheight_m = 30.0\nwidth_m = 4.0\nmass_kg = 400e3\n\
+pub(super) const LEGS: &str = "kind = 'aframe'\nheight_m = 30.0\nwidth_m = 4.0\nmass_kg = 400e3\n\
     foot_mass_kg = 10e3\nea_n = 3e10\nei_nm2 = 2.5e9\ndamping_ratio = 0.02\n";
 const PORTAL: &str = "kind = 'frame'\nheight_m = 12.0\nspan_m = 10.0\nfooting_width_m = 3.0\n\
     footing_height_m = 1.5\nfooting_mass_kg = 40e3\nbeam_mass_kg = 500e3\ncolumn_ea_n = 3.4e10\n\
     column_ei_nm2 = 3e9\nbeam_ea_n = 4e10\nbeam_ei_nm2 = 1e10\ndamping_ratio = 0.02\n";
 
-fn structure(text: &str) -> ElasticStructure {
+pub(super) fn structure(text: &str) -> ElasticStructure {
     toml::from_str::<ElasticStructure>(text).unwrap().checked().unwrap()
 }
 
 /// Springs that differ from corner to corner.
-fn springs(corners: usize) -> Vec<Springs<Chain>> {
+pub(super) fn springs(corners: usize) -> Vec<Springs<Chain>> {
     let chain = |x: f64| Chain { k1: 1e10 * x, k2: 7e8 * x, m2: 2e4 * x, c: 3e7 * x };
     let of = |i: usize| 1.0 + 0.1 * i as f64;
     (0..corners)
@@ -40,7 +40,7 @@ fn deck(model: &Assembled, record: &Record) -> Result<String, ExportError> {
     deck_of(model, record, (&springs, Some(&CornerProgram::even(&row))), DeckFormat::Sap2000)
 }
 
-fn deck_of(
+pub(super) fn deck_of(
     model: &Assembled,
     record: &Record,
     (springs, program): (&[Springs<Chain>], Option<&CornerProgram>),
@@ -60,8 +60,7 @@ fn deck_of(
         alpha: 0.1,
         frequency_hz: 2.0,
         accuracy: 0.002,
-        program,
-        gives_up_s: None,
+        program: program.map(|program| (program, EvenEnds::default())),
     }
     .text(format)
 }
@@ -235,7 +234,7 @@ fn substeps_at_touches_have_springs_of_their_own_and_no_tables() {
 }
 
 /// A program of this step (s), on springs at K = 1/4.
-fn program_row(step: f64) -> ProgramRow<CornerUnits> {
+pub(super) fn program_row(step: f64) -> ProgramRow<CornerUnits> {
     let unit = |k1: f64| {
         let k2 = 0.25 * k1;
         format!("{{ k1_n_per_m = {k1:?}, k2_n_per_m = {k2:?}, m2_kg = 2e4, c_ns_per_m = 3e7 }}")

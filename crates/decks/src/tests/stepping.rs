@@ -7,7 +7,7 @@ use parameters::program::ProgramRow;
 use springs::{fixed_steps::ProgramSprings, suite::Suites};
 
 /// A block with springs for a program.
-fn for_program(name: ProgramName, step: f64) -> Parameters {
+pub(super) fn for_program(name: ProgramName, step: f64) -> Parameters {
     let body = Structure::block(2.0, 0.5, 500.0).unwrap();
     let suites = Suites::of_seed(3, &body.body(), body.body::<f64>().restitution(), None);
     let csi = name == ProgramName::Sap2000;
@@ -22,7 +22,7 @@ fn for_program(name: ProgramName, step: f64) -> Parameters {
     }
 }
 
-fn text(parameters: &Parameters, format: DeckFormat, stepping: Stepping) -> String {
+pub(super) fn text(parameters: &Parameters, format: DeckFormat, stepping: Stepping) -> String {
     stepped_deck(parameters, &Record::el_centro().truncated(8.0), format, stepping, None)
         .unwrap()
         .text

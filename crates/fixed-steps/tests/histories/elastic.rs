@@ -132,3 +132,18 @@ fn derivative(model: &FixedStepFrame, at: &Trial<Vec<f64>>, feet: &Vec<FixedFoot
         assert!((found - expected).abs() < 1e-5, "{right:?}, {direction:?}");
     }
 }
+
+/// A pier that topples lies on the ground, and the history ends, as that of a rigid body does.
+#[test]
+fn a_toppled_pier_ends_the_history() {
+    let (frame, units, accel) = (pier(1e8), corners(), vec![4.0; 600]);
+    let model = FixedStepFrame::new(&frame, &units).unwrap();
+    for integrator in [Integrator::BackwardEuler, Integrator::Trbdf2] {
+        let settings = newton(integrator, 1e-3, 1e-6).with_substeps(1.0 / 16.0);
+        let found = FixedStepAnalysis::new(&model, settings, DT, &accel).history().unwrap();
+        let FixedStepOutcome::Fallen { time } = found.outcome else {
+            panic!("{integrator}: {:?}", found.outcome)
+        };
+        assert!(time > 0.5 && time < 6.0 && found.coordinates.len() < accel.len(), "{time}");
+    }
+}

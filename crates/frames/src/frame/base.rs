@@ -3,6 +3,9 @@
 
 use super::Frame;
 
+/// Rotation of a base at which a structure has fallen over (rad), that of a rigid body's decks.
+const FALLEN: f64 = 1.0;
+
 /// What rotates rigidly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Base {
@@ -70,4 +73,49 @@ impl Base {
         let (sin, cos) = th.sin_cos();
         [now[0] * cos - now[1] * sin - arm[0], now[0] * sin + now[1] * cos - arm[1]]
     }
+}
+
+impl Frame {
+    /// Whether it has fallen over, or flies apart as no structure does: a base has turned by 1 rad,
+    /// or a node has moved by more than the structure is large ([`Frame::span`]).
+    pub fn has_fallen(&self, q: &[f64]) -> bool {
+        let size = self.span();
+        let far = |node: usize| {
+            let [x, z, _] = self.displacement(node, q);
+            beyond(x.hypot(z), size)
+        };
+        self.has_turned(FALLEN, q) || (0..self.nodes()).any(far)
+    }
+
+    /// Whether a base has turned by an angle or more, to either side (rad).
+    pub fn has_turned(&self, angle: f64, q: &[f64]) -> bool {
+        Base::all(self).into_iter().any(|base| beyond(base.rotation(self, q).abs(), angle))
+    }
+
+    /// Rotation at which the centre of mass stands above a corner of its narrowest base (rad):
+    /// arctan of half that base's width over the height of all mass. Infinite without corners.
+    pub fn topples_at(&self) -> f64 {
+        let mass = |node: usize| self.bodies[node].index[0];
+        let mass = |node: usize| self.mass.get((mass(node), mass(node))).copied().unwrap_or(0.0);
+        let height = |node: usize| mass(node) * self.centre(node)[1];
+        let nodes = || 0..self.nodes();
+        let mean = nodes().map(height).sum::<f64>() / nodes().map(mass).sum::<f64>();
+        let of = |base: Base| {
+            let own = |node: usize| base == Base::Feet || base == Base::Footing(node);
+            let corners = self.corners.iter().zip(&self.footings).filter(|(_, node)| own(**node));
+            let places: Vec<[f64; 2]> = corners.map(|(corner, _)| corner.unstressed).collect();
+            let sole = places.iter().map(|[_, z]| *z).fold(f64::INFINITY, f64::min);
+            let [left, right] = [f64::INFINITY, f64::NEG_INFINITY];
+            let (left, right) = places
+                .iter()
+                .fold((left, right), |(left, right), [x, _]| (left.min(*x), right.max(*x)));
+            (0.5 * (right - left) / (mean - sole)).atan()
+        };
+        Base::all(self).into_iter().map(of).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Whether a magnitude has come to a limit, or is no number.
+fn beyond(magnitude: f64, limit: f64) -> bool {
+    magnitude.is_nan() || magnitude >= limit
 }

@@ -326,3 +326,25 @@ fn columns_that_give_in_shear_have_timoshenko_s_frequencies() {
         assert!((f / exact - 1.0).abs() < 0.01, "{n}: {f} {exact}");
     }
 }
+
+/// A pier turned by 1 rad, one whose mass is further away than its own size, one that is no number.
+#[test]
+fn what_has_fallen_and_what_stands() {
+    let column = StraightMember { section: BeamSection::elastic(8e9, 6e9), elements: 1 };
+    let frame = Cantilever { column, ..pier(1, None) }.layout().frame().unwrap();
+    let turn = frame.coordinates(0)[2].unwrap();
+    let [across, ..] = frame.coordinates(1).map(Option::unwrap_or_default);
+    let moved = |at: usize, by: f64| {
+        let mut q = vec![0.0; frame.size()];
+        q[at] = by;
+        frame.has_fallen(&q)
+    };
+    assert!(!moved(turn, 0.99) && moved(turn, 1.01) && moved(turn, -1.01) && moved(turn, f64::NAN));
+    let size = frame.span();
+    assert!(!moved(across, 0.99 * size) && moved(across, -1.01 * size));
+    // half of the footing's 4 m over the height of 600 t at 12 m and 120 t at 0.75 m
+    let height = (6e5 * 12.0 + 1.2e5 * 0.75) / 7.2e5;
+    assert!((frame.topples_at() - (2.0_f64 / height).atan()).abs() < 1e-12);
+    // the narrow footings of a portal, not the distance between its columns
+    assert!(portal().layout().frame().unwrap().topples_at() < (1.5_f64 / 5.0).atan());
+}

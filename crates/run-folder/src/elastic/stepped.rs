@@ -2,7 +2,8 @@
 
 use super::{ElasticRun, deck_of};
 use decks::{
-    ACCURACY, CornerHistory, CornerProgram, DeckFormat, ExportError, SteppedDeck, samples_to,
+    ACCURACY, CornerHistory, CornerProgram, DeckFormat, EvenEnds, ExportError, SteppedDeck,
+    samples_to,
 };
 use frames::assembled::Assembled;
 use parameters::program::{CornerUnits, ProgramOnRecord, ProgramRow};
@@ -30,12 +31,13 @@ fn stepped_deck_of(
     (assembled, program): (&Assembled, &CornerProgram),
     record: &Record,
     format: DeckFormat,
-    CornerHistory { coordinates, gives_up_s, foretold_s }: &CornerHistory,
+    CornerHistory { coordinates, gives_up_s, foretold_s, .. }: &CornerHistory,
     until: Option<f64>,
 ) -> Result<SteppedDeck, ExportError> {
-    let until = [until, *foretold_s].into_iter().flatten().min_by(f64::total_cmp);
-    let springs = (&program.row.units.chains()[..], Some(program), *gives_up_s);
-    let text = deck_of(assembled, springs, record, (coordinates, until), (format, ACCURACY))?;
+    let compared = [until, *foretold_s].into_iter().flatten().min_by(f64::total_cmp);
+    let ends = EvenEnds { gives_up_s: *gives_up_s, compared_by_steps: compared != until };
+    let springs = (&program.row.units.chains()[..], Some((program, ends)));
+    let text = deck_of(assembled, springs, record, (coordinates, compared), (format, ACCURACY))?;
     Ok(SteppedDeck { text, gives_up_s: *gives_up_s, until })
 }
 
@@ -43,14 +45,18 @@ impl ElasticRun {
     /// What a program with fixed time steps would find on the record, beside the reference: up to
     /// when its motion can be predicted, these being the findings.
     pub(super) fn program_on_record(&self, findings: &[FiledFinding]) -> Option<ProgramOnRecord> {
-        let CornerHistory { coordinates, gives_up_s, .. } = self.program_history.as_ref()?;
+        let history = self.program_history.as_ref()?;
+        let CornerHistory { coordinates, gives_up_s, falls_s, .. } = history;
         let frame = &self.assembled.frame;
         let tops = self.assembled.watched.iter().map(|watched| watched.top);
         let top = |q: &Vec<f64>| {
             tops.clone().map(|top| frame.displacement(top, q)[0].abs()).fold(0.0, f64::max)
         };
-        let samples = samples_to(predictable_to(findings), self.record.dt, self.record.len());
-        let whole = coordinates.len() >= samples
+        let until = predictable_to(findings);
+        let samples = samples_to(until, self.record.dt, self.record.len());
+        let stands = falls_s.is_none_or(|falls| until.is_some_and(|until| until < falls));
+        let whole = stands
+            && coordinates.len() >= samples
             && self.answer.histories.falls(self.assembled.structure.body().alpha()).is_none();
         let found = coordinates.iter().take(samples).map(top).fold(0.0, f64::max);
         let pair = self.parts().foretold_peaks(findings);
@@ -58,7 +64,8 @@ impl ElasticRun {
             Some(part) => part.top_displacement_m[0],
             None => pair.reference.top_displacement_m,
         };
-        Some(ProgramOnRecord::of(whole.then_some([found, reference]), *gives_up_s))
+        let found = ProgramOnRecord::of(whole.then_some([found, reference]), *gives_up_s);
+        Some(ProgramOnRecord { falls_s: *falls_s, ..found })
     }
 
     /// A deck for a program with fixed time steps.

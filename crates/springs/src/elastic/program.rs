@@ -106,8 +106,8 @@ pub struct ElasticProgramSprings {
     /// rotations, and of the displacement, drift or uplift that errs most. None of a step too long
     /// to promise anything, or if there is nothing to measure on.
     pub measured: Option<ErrorsOverMotions>,
-    /// Whether the program gives up on the record, in its whole length.
-    gives_up: bool,
+    /// Whether the program does not get through the record, in its whole length.
+    record_lost: bool,
 }
 
 impl ElasticProgramSprings {
@@ -197,7 +197,7 @@ impl ElasticProgramSprings {
         let uplift = standing.uplift().unwrap_or(GRAVITY * body.alpha().tan());
         let settings = program.settings(standing.mass * uplift);
         let floor = FLOOR * body.p_squared().sqrt() * program.step;
-        Self { program, springs, settings, floor, measured: None, gives_up: false }
+        Self { program, springs, settings, floor, measured: None, record_lost: false }
     }
 
     /// Step the springs on the suite's motions, and on the whole record to see that the program
@@ -213,15 +213,19 @@ impl ElasticProgramSprings {
         let of_suite = suite.record.as_ref().map_or(0, |trial| trial.accel.len());
         let record = record.filter(|ground| ground.accel.len() > of_suite);
         let whole = record.and_then(|ground| history(&suite.model, corners, self.settings, ground));
-        self.gives_up =
-            whole.is_some_and(|history| matches!(history.outcome, FixedStepOutcome::GaveUp(_)));
+        self.record_lost = whole.is_some_and(|history| match history.outcome {
+            FixedStepOutcome::Finished => false,
+            FixedStepOutcome::GaveUp(_) => true,
+            // of a record that is no trial the structure may fall on rigid ground, too
+            FixedStepOutcome::Fallen { .. } => suite.record.is_some(),
+        });
     }
 
     /// Histories that are lost, then the median of rotations; springs that were not measured come
     /// last.
     fn rank(&self) -> (usize, f64) {
         self.measured.as_ref().map_or((usize::MAX, f64::INFINITY), |errors| {
-            (errors.lost() + usize::from(self.gives_up), errors.quantile(0.5))
+            (errors.lost() + usize::from(self.record_lost), errors.quantile(0.5))
         })
     }
 }

@@ -1,6 +1,7 @@
 //! The end of the sheet: what to compare, and what a user would not expect.
 
 use super::SapModel;
+use crate::plain::lines;
 use files::message::significant;
 
 /// A range of displacements (m), least first.
@@ -16,7 +17,7 @@ fn mm(x: f64) -> String {
 pub(super) fn expected(parts: &SapModel) -> String {
     let [u, v] = parts.peaks;
     let until = parts.until.map_or(String::new(), |until| {
-        format!(", to {} s (beyond, the motion cannot be predicted)", significant(until, 4))
+        format!(", to {} s (beyond, {})", significant(until, 4), parts.even.ends.beyond())
     });
     let mut text = format!(
         "To compare, joint {}, {}: after GRAVITY U3 = {}. In QUAKE{until}:\n",
@@ -71,6 +72,8 @@ pub(super) fn notes(parts: &SapModel) -> String {
              of the whole structure: compare a free\n     rocking with and without it.",
         );
     }
+    let damping = parts.damping.as_ref().map(|of| lines(of, "\n     "));
+    all.extend(damping.as_deref());
     let lines: String = all.iter().map(|note| format!("   - {note}\n")).collect();
     format!("Notes.\n{lines}")
 }
