@@ -63,8 +63,11 @@ fn a_pier_is_tuned_and_what_is_written_agrees_with_itself() {
     assert_eq!(
         history.lines().next().unwrap(),
         "t,theta_reference,drift_reference,theta_fem,drift_fem,uplift_1,uplift_2,\
-            foot_1_moved_reference,foot_1_moved_fem"
+            foot_1_moved_reference,foot_1_moved_fem,top_reference,top_fem"
     );
+    let top = |line: &str| line.rsplit(',').next().unwrap().parse::<f64>().unwrap().abs();
+    let highest = history.lines().skip(1).map(top).fold(0.0, f64::max);
+    assert!((highest / number("top_displacement_m") - 1.0).abs() < 1e-6, "{highest} {peaks}");
     assert_eq!(history.lines().count(), 2002);
     let page = read("report.html");
     assert!(page.contains("<h2>Forces to design with</h2>") && !page.contains("src=\"http"));
@@ -151,6 +154,29 @@ fn decks_are_whole(folder: &TestFolder) {
         assert_eq!(folder.text("again"), deck, "{format}");
     }
     assert_eq!(folder.text("out/decks/springs.csv").lines().count(), 1 + 2 * 2);
+    // what someone who types the model needs
+    let parameters = folder.text("out/parameters.json");
+    let parameters = ElasticParameters::parse("parameters.json", &parameters).unwrap();
+    let ei = parameters.column.unwrap().ei_nm2;
+    let table = folder.text("out/decks/springs_even.md");
+    for holds in [
+        "| corner 1 | -2 | vertical |",
+        "halved, down to 1/16 of it",
+        "an unbalance below ",
+        "m2 has no weight",
+        "holds for this damping alone",
+        &format!("| {ei:.16e} |"),
+    ] {
+        assert!(table.contains(holds), "{holds}: {table}");
+    }
+    let csv = folder.text("out/decks/springs_even.csv");
+    assert!(csv.starts_with("foot,x_m,direction,") && csv.contains("corner 2,2,horizontal,"));
+    assert!(
+        csv.lines()
+            .next()
+            .unwrap()
+            .ends_with(",substeps,newton_iterations,tolerance,tolerance_is_of")
+    );
 }
 
 #[test]

@@ -97,6 +97,7 @@ impl ElasticDeck<'_> {
             DeckFormat::Markdown => {
                 let even = self.even();
                 let mut text = plain::markdown(self.title, even.as_ref(), &self.places());
+                text += &plain::beams(self.layout);
                 if let Some(damping) = self.damping("") {
                     text.push_str(&format!("\n{damping}\n"));
                 }
@@ -132,7 +133,8 @@ impl ElasticDeck<'_> {
         self.springs
             .iter()
             .enumerate()
-            .map(|(i, springs)| (format!("corner {}", i + 1), *springs))
+            .zip(&self.layout.corners)
+            .map(|((i, springs), at)| (format!("corner {}", i + 1), at.place[0], *springs))
             .collect()
     }
 

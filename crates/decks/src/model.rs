@@ -152,7 +152,9 @@ impl<'a> DeckModel<'a> {
 
     /// The feet and what is under them.
     pub(crate) fn places(&self) -> [NamedSprings; 2] {
-        ["left", "right"].map(|foot| (foot.to_string(), self.springs))
+        let body = self.body();
+        let half = body.radius() * body.alpha().sin();
+        [("left", -half), ("right", half)].map(|(foot, x)| (foot.to_string(), x, self.springs))
     }
 
     /// Time of the last sample followed (s).

@@ -88,7 +88,7 @@ fn one(
     let all = quantity.curves.iter().flat_map(|curve| curve.iter().copied());
     let (low, high) = around_zero(all);
     let size = high.max(-low);
-    let (unit, letter) = if size > 0.0 { prefix(size) } else { (1.0, "") };
+    let (unit, letter) = unit(data.panels, quantity, size);
     let room = (0.06 * (high - low) / unit).max(f64::MIN_POSITIVE);
     let y = if size > 0.0 {
         Scale::linear(low / unit - room, high / unit + room)
@@ -116,6 +116,20 @@ fn one(
     let end = data.event.map(|event| (event, ending));
     panel.events(canvas, &mut plot, end.as_slice(), false);
     canvas.keep(plot);
+}
+
+/// Part of a prefix below which a panel has a smaller one than others of its unit.
+const LEAST: f64 = 0.05;
+
+/// Prefix of a quantity of this size: that of the largest of its unit, if that leaves few zeros.
+fn unit(panels: &[StackQuantity<'_>], of: &StackQuantity<'_>, size: f64) -> (f64, &'static str) {
+    let all = panels.iter().filter(|panel| panel.unit == of.unit).flat_map(|panel| panel.curves);
+    let largest = all.flat_map(|curve| curve.iter()).fold(0.0, |most: f64, x| most.max(x.abs()));
+    match largest > 0.0 && size >= LEAST * prefix(largest).0 {
+        true => prefix(largest),
+        false if size > 0.0 => prefix(size),
+        false => (1.0, ""),
+    }
 }
 
 /// The first is wide and black, the others thinner and coloured.
@@ -150,6 +164,14 @@ mod tests {
         let sheet = draw(&stack).unwrap();
         assert_eq!(sheet.plots.len(), 2);
         assert!(sheet.svg.contains("base shear") && sheet.svg.contains("kN"));
+        // one prefix for what is compared
+        let small: Vec<f64> = wave.iter().map(|x| 1e-3 * x).collect();
+        let of = |name| StackQuantity { name, unit: "N", curves: &curves };
+        let panels = [of("base shear"), StackQuantity { curves: &[&small], ..of("damper") }];
+        assert_eq!(unit(&panels, &panels[1], 200.0).1, "k");
+        let tiny = [0.2];
+        let panels = [of("base shear"), StackQuantity { curves: &[&tiny], ..of("damper") }];
+        assert_eq!(unit(&panels, &panels[1], 0.2).1, "m");
         assert!(draw(&StackFigure { t: &t[..60], ..stack }).is_err());
     }
 }

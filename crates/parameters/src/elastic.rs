@@ -83,6 +83,24 @@ pub struct OnRecord {
     pub near: Option<Ensemble>,
 }
 
+/// What a pier's column is made of, where the structure gives a frequency or leaves something out.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ColumnRow {
+    /// Bending stiffness EI (N m2).
+    pub ei_nm2: f64,
+    /// Axial stiffness EA (N).
+    pub ea_n: f64,
+}
+
+impl ColumnRow {
+    fn of(structure: &ElasticStructure) -> Option<Self> {
+        match structure {
+            ElasticStructure::Pier(pier) => Some(Self { ei_nm2: pier.ei(), ea_n: pier.ea() }),
+            ElasticStructure::AFrame(_) | ElasticStructure::Frame(_) => None,
+        }
+    }
+}
+
 /// What the file holds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -91,6 +109,9 @@ pub struct ElasticParameters {
     pub schema: u32,
     /// As given, checked.
     pub structure: ElasticStructure,
+    /// The column of a pier as it is computed with; there to read, and changes nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub column: Option<ColumnRow>,
     /// Dampers between corners and ground.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damper: Option<Damper>,
@@ -139,6 +160,7 @@ impl ElasticParameters {
         let springs = corners.iter().map(row).collect();
         Self {
             schema: SCHEMA,
+            column: ColumnRow::of(&structure),
             structure,
             damper: None,
             tendon: None,
@@ -277,6 +299,10 @@ mod tests {
         let text = written.to_json();
         assert!(ElasticParameters::is(&text) && !ElasticParameters::is("{}"));
         assert_eq!(ElasticParameters::parse("p.json", &text).unwrap(), written);
+        // what a frequency of 2 Hz comes to
+        let ElasticStructure::Pier(pier) = written.structure else { panic!() };
+        let column = ColumnRow { ei_nm2: pier.ei(), ea_n: pier.ea() };
+        assert!(written.column == Some(column) && column.ei_nm2 > 1e9);
     }
 
     /// JSON has no infinity.

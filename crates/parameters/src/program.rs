@@ -3,20 +3,22 @@
 use serde::{Deserialize, Serialize};
 
 mod on_record;
+mod verdict;
 
 use super::{ParametersError, corner::CornerRow};
 use cases::program::ProgramSection;
 use dynamics::spring::{Chain, ChainRow, Springs};
 use fixed_steps::{
     ConvergenceTest, FixedStepProgram, Integrator, Iteration, ProgramName, StepSettings,
-    expected::FLOOR, measured::ErrorsOverMotions,
+    measured::ErrorsOverMotions,
 };
 pub use on_record::ProgramOnRecord;
-use results::{NotToBeUsed, ProgramAdvice, ProgramFault};
+use results::NotToBeUsed;
 use rocking::{scalar::GRAVITY, structure::Structure};
+pub use springs::fixed_steps::instead::{USELESS, round_step};
 use springs::{
     elastic::program::ElasticProgramSprings,
-    fixed_steps::{LONGEST, ProgramSprings},
+    fixed_steps::{ProgramSprings, instead::ProgramInstead},
 };
 
 /// Errors of histories of a program beside Housner's, over motions; `null` if so many were lost.
@@ -63,6 +65,9 @@ pub struct ProgramExpected {
     /// Measured in this run on earthquake-like motions.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub earthquakes: Option<ProgramErrors>,
+    /// Other settings of the program, measured where those asked for are of no use.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub instead: Option<ProgramInstead>,
 }
 
 impl ProgramExpected {
@@ -135,6 +140,10 @@ pub struct ProgramRow<U> {
     /// On the run's record, by an emulation of the program's steps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on_record: Option<ProgramOnRecord>,
+    /// Why the springs are of no use and what to do, if they are: as [`ProgramRow::not_to_be_used`]
+    /// finds it, which is what counts in a file that is read.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub not_to_be_used: Option<NotToBeUsed>,
 }
 
 impl<U> ProgramRow<U> {
@@ -165,7 +174,9 @@ impl<U> ProgramRow<U> {
             expected,
             without_deck: false,
             on_record: None,
+            not_to_be_used: None,
         }
+        .judged()
     }
 }
 
@@ -184,6 +195,7 @@ impl From<&ProgramSprings> for ProgramRow<FootUnits> {
             rebound: Some(expected.rebound),
             synthetic: of.synthetic.as_ref().map(ProgramErrors::from),
             earthquakes: of.earthquakes.as_ref().map(ProgramErrors::from),
+            instead: of.instead,
         };
         let row = Self::of(program, &of.settings(), m1 * GRAVITY, units, expected);
         Self { stiffer_for_earthquakes: of.stiffer, ..row }
@@ -211,24 +223,10 @@ impl ProgramRow<CornerUnits> {
             rebound: None,
             synthetic: of.measured.as_ref().map(ProgramErrors::from),
             earthquakes: None,
+            instead: of.instead,
         };
         Self::of(&of.program, &of.settings, mass * GRAVITY, units, expected)
     }
-}
-
-/// Error of the largest displacement above which springs are of no use: in the median of motions,
-/// or on the run's record.
-pub const USELESS: f64 = 0.1;
-/// The same on earthquake-like motions in steps that are not too long.
-const NO_PEAK: f64 = 0.3;
-/// A difference of integrators' alpha that is rounding: users write hht:-0.333.
-const SAME_ALPHA: f64 = 1e-3;
-
-/// The largest step of 1, 2 or 5 times a power of ten that is no longer than this (s).
-pub fn round_step(step: f64) -> f64 {
-    let all = (1..=9).flat_map(|k| [5, 2, 1].map(|digit| format!("{digit}e-{k}")));
-    let all = all.filter_map(|text| text.parse::<f64>().ok());
-    all.into_iter().find(|x| *x <= step * (1.0 + 1e-9)).unwrap_or(step)
 }
 
 impl<U> ProgramRow<U> {
@@ -280,78 +278,6 @@ impl<U> ProgramRow<U> {
     #[doc(hidden)]
     pub fn in_sap2000(&self) -> bool {
         self.name == Some(ProgramName::Sap2000)
-    }
-
-    /// Whether the springs are of no use, why, and what to do, which can be printed.
-    pub fn not_to_be_used(&self) -> Option<NotToBeUsed> {
-        let fault = self.fault()?;
-        Some(NotToBeUsed { fault, advice: self.advice(fault) })
-    }
-
-    /// What is wrong with them, if they are of no use: on the set of motions where they err most,
-    /// or on the record where it can be predicted and errs more. Earthquake-like motions count in
-    /// steps that are too long by the law of the floor, and where peaks err by more than 30 %;
-    /// elsewhere what they err there is a warning.
-    fn fault(&self) -> Option<ProgramFault> {
-        let ProgramExpected { synthetic, earthquakes, floor, .. } = self.expected;
-        let no_peak = |errors: &ProgramErrors| errors.peak[0].is_none_or(|median| median > NO_PEAK);
-        let counts = |e: &ProgramErrors| synthetic.is_none() || floor > USELESS || no_peak(e);
-        let earthquakes = earthquakes.filter(counts);
-        let suites = [(synthetic, false), (earthquakes, true)];
-        let suites = suites.into_iter().filter_map(|(errors, like)| Some((errors?, like)));
-        let median = |errors: &ProgramErrors| errors.peak[0].unwrap_or(f64::INFINITY);
-        let worst = suites.reduce(|a, b| if median(&b.0) > median(&a.0) { b } else { a });
-        let Some((errors, earthquakes)) = worst else {
-            return (floor > FLOOR * LONGEST).then_some(ProgramFault::TooLong { floor });
-        };
-        let (lost, motions) = (errors.lost, errors.histories);
-        let Some(median) = errors.peak[0] else {
-            return Some(ProgramFault::Lost { lost, motions });
-        };
-        let on = self.on_record.filter(|on| on.predictable != Some(false));
-        let on_record = on.and_then(|on| {
-            let top = on.top.filter(|top| top.abs() > median.max(USELESS))?;
-            Some(ProgramFault::OnRecord { top, until_s: on.until_s })
-        });
-        let on_motions = ProgramFault::Peaks { median, motions, earthquakes };
-        on_record.or((median > USELESS).then_some(on_motions))
-    }
-
-    /// What springs that are of use err on earthquake-like motions, if that is much.
-    #[doc(hidden)]
-    pub fn errs_on_earthquakes(&self) -> Option<ProgramErrors> {
-        let errors = self.expected.earthquakes.filter(|_| self.not_to_be_used().is_none())?;
-        errors.peak[0].is_none_or(|median| median > USELESS).then_some(errors)
-    }
-
-    /// What to do about it. Errors are taken to grow as the step does, as the floor.
-    fn advice(&self, fault: ProgramFault) -> ProgramAdvice {
-        let by_law = self.step_s * USELESS / self.expected.floor;
-        let step = |error: f64| ProgramAdvice::Step {
-            step_s: round_step(by_law.min(self.step_s * USELESS / error)),
-        };
-        let too_long = self.step_s > by_law;
-        match fault {
-            _ if self.without_deck => ProgramAdvice::OtherDeck,
-            ProgramFault::Lost { .. } if too_long => step(USELESS),
-            _ if !too_long && !self.has_usual_integrator() => ProgramAdvice::DefaultIntegrator,
-            ProgramFault::Lost { .. } => ProgramAdvice::AnotherStep,
-            ProgramFault::OnRecord { .. } if !too_long => ProgramAdvice::AnotherStep,
-            ProgramFault::Peaks { median: error, .. }
-            | ProgramFault::OnRecord { top: error, .. }
-            | ProgramFault::TooLong { floor: error } => step(error.abs()),
-        }
-    }
-
-    /// Whether its integrator is the one that is taken unless another one is given.
-    fn has_usual_integrator(&self) -> bool {
-        let usual = self.name.unwrap_or(ProgramName::Sap2000).integrator();
-        match (self.integrator, usual) {
-            (Integrator::Hht { alpha }, Integrator::Hht { alpha: usual }) => {
-                (alpha - usual).abs() < SAME_ALPHA
-            }
-            (given, usual) => given == usual,
-        }
     }
 }
 

@@ -143,9 +143,9 @@ impl AccuracyReport {
         }
     }
 
-    /// The same for a screen, in parts, of which the last may be left out: on the first so many of
-    /// the record and the sets of motions; why this record, if there is one, does not judge
-    /// springs.
+    /// The same for a screen, in parts: on the first so many of the record and the sets of motions;
+    /// why this record, if there is one, does not judge springs; what was asked, and whether that
+    /// is reached.
     pub(crate) fn short(&self, sets: usize, record: Option<Unjudged>) -> Vec<String> {
         let on = |(i, row): (usize, &AccuracyOn)| {
             let [peaks, nrmse] = if i == 0 { ["peaks within ", "NRMSE "] } else { [""; 2] };
@@ -165,7 +165,12 @@ impl AccuracyReport {
         if self.reached {
             said.reverse();
         }
-        measured.into_iter().chain(said).collect()
+        [measured, said].concat()
+    }
+
+    /// Sets that something was measured on, the record among them.
+    pub(crate) fn sets(&self) -> usize {
+        self.measured().count()
     }
 
     /// Whether something was measured on the record itself.

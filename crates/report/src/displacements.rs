@@ -19,15 +19,18 @@ pub(crate) const LARGEST: &str = "largest by";
 pub(crate) const PART: &str = "  of it";
 /// The top's displacement over its height.
 pub(crate) const DRIFT_RATIO: &str = "  drift ratio";
+/// The same of an elastic structure, whose drift is by bending alone.
+const OF_BOTH: &str = "  drift ratio (rocking + bending)";
 /// Share of the top's displacement below which it is not said.
 const NOT_SAID: f64 = 0.005;
 
-const ROWS: [PeakRow; 9] = [
+const ROWS: [PeakRow; 10] = [
     ("top displacement", |p| Some(p.top_displacement_m), meters, at_top),
     ("  of it by rocking", |p| Some(p.then?.rocking_m), meters, at_top),
     ("  of it by bending", |p| Some(p.then?.bending_m), meters, at_top),
     (MOVED, |p| Some(p.then?.feet_moved_m), meters, at_top),
-    (DRIFT_RATIO, |p| Some(p.drift_ratio), percents, at_drift),
+    (DRIFT_RATIO, |p| Some(p.drift_ratio).filter(|_| p.bending_m.is_none()), percents, at_drift),
+    (OF_BOTH, |p| p.bending_m.map(|_| p.drift_ratio), percents, at_drift),
     ("largest by rocking", |p| p.bending_m.map(|_| p.rocking_m), meters, |t| Some(t.rocking_s)),
     ("largest by bending", |p| p.bending_m, meters, |t| t.bending_s),
     ("uplift", |p| Some(p.uplift_m), meters, |t| Some(t.uplift_s)),

@@ -16,6 +16,8 @@ use parameters::{
 use results::{FiledFinding, Finding, NotToBeUsed, ProgramFault};
 use springs::fixed_steps::THROUGH;
 
+/// How a program's name ends that takes other steps, too.
+const EVEN: &str = " with even steps";
 /// Part of a step within which times are the same.
 const SAME: f64 = 1e-6;
 /// A tolerance above which one suspects a misprint.
@@ -41,8 +43,13 @@ pub struct ProgramReport {
     #[serde(skip)]
     table: Table,
     /// Whether they are of use: the program gets through most motions tried, and errs by less.
-    #[serde(skip)]
     pub usable: bool,
+    /// Why not, and what to do, if they are not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub not_to_be_used: Option<NotToBeUsed>,
+    /// What an emulation of it finds on the record.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub on_record: Option<ProgramOnRecord>,
     /// Whether it is OpenSees with steps of one size, which has a deck of its own.
     #[serde(skip)]
     pub(crate) deck_of_even_steps: bool,
@@ -55,6 +62,9 @@ pub struct ProgramReport {
     /// Whether a user asked for it.
     #[serde(skip)]
     pub(crate) asked: bool,
+    /// Whether the structure is elastic, of which no law of the step is known.
+    #[serde(skip)]
+    elastic: bool,
     /// Why they are stiffer than the closed form has them, if they are.
     #[serde(skip)]
     stiffer: Option<&'static str>,
@@ -102,7 +112,7 @@ impl ProgramReport {
                 format!("inertia {value}, not {}", significant(given, 4)),
             )
         });
-        let told = told(["top", "synthetic motions"], &parameters.findings);
+        let told = told(["top", "synthetic motions"], false, &parameters.findings);
         Some(Self::new(row, units.into(), (inertia, output(row, parameters.record.as_ref())), told))
     }
 
@@ -110,7 +120,7 @@ impl ProgramReport {
     pub(crate) fn of_elastic(parameters: &ElasticParameters) -> Option<Self> {
         let row = parameters.program.as_ref()?;
         // this record among them
-        let told = told(["peaks", "motions"], &parameters.findings);
+        let told = told(["peaks", "motions"], true, &parameters.findings);
         let output = output(row, parameters.record.as_ref());
         Some(Self::new(row, corner_units(&row.units.springs), (None, output), told))
     }
@@ -129,12 +139,15 @@ impl ProgramReport {
             short_errors: [ErrorWords::Short, ErrorWords::Fewest]
                 .map(|words| errors(row, told, words)),
             units,
-            table: table(row, told.motions),
+            table: table(row, &told),
             usable: row.not_to_be_used().is_none(),
+            not_to_be_used: row.not_to_be_used(),
+            on_record: row.on_record,
             deck_of_even_steps: row.in_opensees(),
             csi: row.is_csi(),
             etabs: row.is_etabs(),
             asked: row.asked,
+            elastic: told.elastic,
             stiffer: row.stiffer_for_earthquakes.then_some(
                 "Omega_n is twice that of the closed form: earthquake-like motions sway the \
                     structure before it lifts, and their peaks err less on such springs; this \
@@ -170,20 +183,33 @@ impl ProgramReport {
         told.map(one).collect()
     }
 
+    fn title(&self) -> String {
+        let program = self.program.strip_suffix(EVEN).unwrap_or(&self.program);
+        format!("Springs for {program} with even steps of {}", self.steps)
+    }
+
     /// For a report.
     pub fn section(&self) -> Section {
         let set_to =
             self.set_to.iter().map(|s| format!("{}: {}", s.name, s.value)).collect::<Vec<_>>();
+        let law = match self.elastic {
+            // its medians lie below and far above the law of a rigid body
+            true => {
+                "A program with steps of one size lands somewhere within a step. What that makes \
+                    an elastic structure err follows no law: it is measured. Of the springs that \
+                    were tried these lose fewest motions, then err least."
+            }
+            false => {
+                "A program with steps of one size lands somewhere within a step, and errs by 13 p \
+                    dt in the median whatever its springs. These are as stiff, and give back as \
+                    little of a landing, as the step has use for."
+            }
+        };
         Section {
             id: "program",
-            title: format!("Springs for {} with steps of {}", self.program, self.steps),
+            title: self.title(),
             text: vec![
-                format!(
-                    "A program with steps of one size lands somewhere within a step, and errs by \
-                        13 p dt in the median whatever its springs. These are as stiff, and give \
-                        back as little of a landing, as the step has use for. Set: {}.",
-                    set_to.join("; ")
-                ),
+                format!("{law} Set: {}.", set_to.join("; ")),
                 format!(
                     "Measured by stepping the model as such a program does, beside the history of \
                         the reference: {}.",
@@ -215,9 +241,9 @@ impl ProgramReport {
 }
 
 /// What errors are of, and what is known of the record's motion.
-fn told([peaks, motions]: [&'static str; 2], findings: &[FiledFinding]) -> ErrorsOf {
+fn told([peaks, motions]: [&'static str; 2], elastic: bool, findings: &[FiledFinding]) -> ErrorsOf {
     let (sensitive, until) = (is_sensitive(findings), predictable_to(findings));
-    ErrorsOf { peaks, motions, sensitive, until }
+    ErrorsOf { peaks, motions, elastic, sensitive, until }
 }
 
 /// The ground motion, for a screen: direction, factor, file, its columns.
@@ -231,11 +257,14 @@ fn settings<U>(
 ) -> Vec<ProgramSetting> {
     let set = ProgramSetting::new;
     let (integrator, newton) = (row.integrator.words(), row.newton_iterations);
-    let [largest, least] = [1, row.substeps].map(|n| significant(row.step_s / n as f64, 4));
+    // halves of halves: of three substeps a half is the least
+    let halves = 1_usize << row.substeps.max(1).ilog2();
+    let [largest, least] = [1, halves].map(|n| significant(row.step_s / n as f64, 4));
     let mut all = vec![set("integrator", integrator.clone(), integrator)];
     all.extend(output);
     let substeps = match row.is_csi() {
         true => format!("substeps max {largest}, min {least} s"),
+        false if halves == 1 => format!("steps of {largest} s, none halved"),
         false => format!("steps of {largest} s, halved down to {least} s where one fails"),
     };
     all.push(set("largest substep", format!("{largest} s"), substeps));
@@ -294,6 +323,8 @@ pub fn with_verdict<U>(
     let (predictable, until_s) = (Some(!is_sensitive(&all)), predictable_to(&all));
     row.on_record = row.on_record.map(|on| ProgramOnRecord { predictable, until_s, ..on });
     let not_to_be_used = row.not_to_be_used();
+    row.not_to_be_used = not_to_be_used;
+    findings.extend(spread(row));
     findings.extend(row.errs_on_earthquakes().map(|errors| Finding::ProgramErrsOnEarthquakes {
         program: row.program(),
         step_s: row.step_s,
@@ -309,6 +340,21 @@ pub fn with_verdict<U>(
         measured.then_some(Finding::ProgramNotToBeUsed { program, step_s, fault, advice, asked })
     }));
     findings
+}
+
+/// That one motion in ten errs much more than the median.
+fn spread<U>(row: &ProgramRow<U>) -> Option<Finding> {
+    let (errors, earthquakes) = row.spreads()?;
+    let [median, ninety] = errors.peak;
+    Some(Finding::ProgramSpread {
+        program: row.program(),
+        step_s: row.step_s,
+        median: median?,
+        ninety: ninety?,
+        motions: errors.histories,
+        earthquakes,
+        asked: row.asked,
+    })
 }
 
 /// That a program does not get through one history in twenty, of all that it was tried on.
@@ -327,3 +373,6 @@ pub(crate) fn lost<U>(row: &ProgramRow<U>, asked: bool) -> Option<Finding> {
 fn is_sensitive(findings: &[FiledFinding]) -> bool {
     findings.iter().any(|filed| matches!(filed.finding, Finding::IllConditioned { .. }))
 }
+
+#[cfg(test)]
+mod tests;

@@ -35,13 +35,13 @@ struct Crowding {
     /// Lines of what a program with fixed time steps errs.
     program: usize,
     /// Lines of what such a program is to be set to: all of it, without what is only to be left at
-    /// nought and one, or what there is room for. In none, it is left to the report, as what a unit
-    /// is made of.
+    /// nought and one, or what there is room for. In none, it is left to the report.
     settings: usize,
     /// Whether impacts, and the friction needed, stand in the table of peaks.
     all_peaks: bool,
     /// Whether the record and what was assumed have one line each, forces that are withheld stand
-    /// in one, and of the parts of a displacement that by bending alone is told.
+    /// in one, parts of a displacement stand in one, and what a unit is made of is left to the
+    /// report.
     tight: bool,
 }
 
@@ -160,10 +160,14 @@ pub fn screen(run: &Run, written: &Written) -> String {
     let room = |lines: &Vec<String>| (LINES - 1).saturating_sub(lines.len());
     let wanted: usize = warnings.iter().map(|warning| warning.lines().len()).sum();
     let answers = CROWDING.iter().map(|crowding| answer(run, written, *crowding));
+    // what a program that a user asked for is to be set to is told all the same
+    let asked = run.program.as_ref().is_some_and(|program| program.asked && program.usable);
+    let levels = CROWDING.len() - usize::from(asked);
     let fits = |(level, lines): &(usize, Vec<String>)| {
-        lines.len() < LINES && room(lines) >= wanted || level + 1 == CROWDING.len()
+        lines.len() < LINES && room(lines) >= wanted || level + 1 == levels
     };
-    let mut lines = answers.enumerate().find(fits).map(|(_, lines)| lines).unwrap_or_default();
+    let answers = answers.take(levels).enumerate();
+    let mut lines = answers.into_iter().find(fits).map(|(_, lines)| lines).unwrap_or_default();
     lines.truncate(LINES - 1);
     let left_out = tell(&warnings, &mut lines);
     if written.report || left_out > 0 {
@@ -204,19 +208,16 @@ fn answer(run: &Run, written: &Written, crowding: Crowding) -> Vec<String> {
     lines.extend(peak_table(run).into_iter().flat_map(|table| of_screen(table, crowding)));
     lines.extend(forces::lines(run, crowding.tight));
     springs(run, &mut lines);
-    if crowding.settings > 0 {
+    if crowding.settings > 0 && !crowding.tight {
         lines.push(format!("  {}, each direction: {UNIT}", run.springs_at));
     }
     if let Some(accuracy) = &run.accuracy {
-        let parts = accuracy.short(crowding.measured, run.unjudged());
-        // as many parts as there is room for
+        // as many sets as there is room for; what was asked and found on one of them is not cut
+        let sets = accuracy.sets().clamp(1, crowding.measured);
         let told =
-            (1..=parts.len()).rev().map(|shown| wrapped("accuracy  ", &parts[..shown].join("; ")));
+            |sets: usize| wrapped("accuracy  ", &accuracy.short(sets, run.unjudged()).join("; "));
         let fits = |some: &Vec<String>| some.len() <= crowding.accuracy;
-        match told.into_iter().find(fits) {
-            Some(some) => lines.extend(some),
-            None => at_most(crowding.accuracy, &mut lines, "accuracy  ", &parts[0]),
-        }
+        lines.extend((1..=sets).rev().map(told).find(fits).unwrap_or_else(|| told(1)));
     }
     next(run, written, crowding, &mut lines);
     lines

@@ -7,6 +7,7 @@ use dynamics::effort::CutBy;
 
 mod advice;
 mod deck_end;
+mod filed;
 mod message;
 mod not_done;
 mod of_steps;
@@ -14,6 +15,7 @@ mod predictable;
 mod weight;
 
 pub use deck_end::DeckEnd;
+pub use filed::FiledFinding;
 pub use frames::design_forces::ForceName;
 pub use message::{HARDLY_ROCKS, feet_end};
 pub use not_done::NotDone;
@@ -197,6 +199,17 @@ pub enum Finding {
         #[serde(default)]
         asked: bool,
     },
+    /// One motion in ten errs much more than the median there: `ninety` is what 90 % are below.
+    ProgramSpread {
+        program: String,
+        step_s: f64,
+        median: f64,
+        ninety: f64,
+        motions: usize,
+        earthquakes: bool,
+        #[serde(default)]
+        asked: bool,
+    },
     /// The springs are of no use there.
     ProgramNotToBeUsed {
         program: String,
@@ -351,45 +364,6 @@ pub struct PeakChange {
     pub without: f64,
     /// With what was left out.
     pub with: f64,
-}
-
-/// A finding as parameters.json holds it: its quantities, and the words of this version of the
-/// program.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct FiledFinding {
-    /// How much it weighs.
-    pub weight: Weight,
-    /// In one sentence.
-    pub message: String,
-    /// What to do.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub remedy: Option<String>,
-    /// Its name and quantities.
-    #[serde(flatten)]
-    pub finding: Finding,
-}
-
-impl FiledFinding {
-    /// The same of an elastic structure.
-    #[must_use]
-    pub fn of_elastic(self) -> Self {
-        Self { remedy: self.finding.remedy_of_elastic(), ..self }
-    }
-
-    /// Message and remedy.
-    pub fn line(&self) -> String {
-        match &self.remedy {
-            Some(remedy) => format!("{}: {remedy}", self.message),
-            None => self.message.clone(),
-        }
-    }
-}
-
-impl From<Finding> for FiledFinding {
-    fn from(finding: Finding) -> Self {
-        let (weight, message, remedy) = (finding.weight(), finding.message(), finding.remedy());
-        Self { weight, message, remedy, finding }
-    }
 }
 
 #[cfg(test)]

@@ -19,7 +19,7 @@ use dynamics::spring::{Chain, Springs};
 use figures::Figure;
 use frames::{
     answer::{ElasticAnswer, ElasticHistories},
-    assembled::{Assembled, Sway},
+    assembled::{Assembled, Sway, Watched},
     fem::ElasticHistory,
 };
 use parameters::{
@@ -103,7 +103,7 @@ pub fn springs_alone(
 fn program_row(assembled: &Assembled, program: &ElasticProgramSprings) -> ProgramRow<CornerUnits> {
     let places = assembled.layout.corners.iter().map(|corner| corner.place[0]);
     let row = ProgramRow::of_corners(program, assembled.structure.mass(), places);
-    ProgramRow { without_deck: assembled.members != Members::default(), ..row }
+    ProgramRow { without_deck: assembled.members != Members::default(), ..row }.judged()
 }
 
 /// The deck that is to find this history, up to when it can be foretold (s) if not to its end; in a
@@ -311,6 +311,19 @@ impl ElasticRun {
         ElasticParameters { record, ..self.parameters.clone() }
     }
 
+    /// Displacement across of the node above every base, in the reference and on the springs (m).
+    fn tops(&self) -> Vec<[Vec<f64>; 2]> {
+        let ElasticHistories { reference, fem, .. } = &self.answer.histories;
+        let frame = &self.assembled.frame;
+        let across = |q: &[f64], top: usize| frame.displacement(top, q)[0];
+        let of = |&Watched { top, .. }: &Watched| {
+            let reference = reference.history.q.iter().map(|q| across(q.as_slice(), top));
+            let fem = fem.q.iter().map(|q| across(q, top));
+            [reference.collect(), fem.collect()]
+        };
+        self.assembled.watched.iter().map(of).collect()
+    }
+
     /// A deck whose steps follow touches.
     fn deck(&self, format: DeckFormat) -> Result<String, ExportError> {
         let corners = &self.tuned.springs.corners;
@@ -320,7 +333,8 @@ impl ElasticRun {
     }
 
     /// `history.csv`: rotation and drift of every base in the reference and on the springs, uplift
-    /// of every corner on them, and how far feet have moved in both.
+    /// of every corner on them, how far feet have moved, and the top displacement above every base
+    /// in both.
     fn history(&self) -> String {
         let ElasticHistories { fem, sways, .. } = &self.answer.histories;
         let name = |what: &str, i: usize| {
@@ -343,6 +357,10 @@ impl ElasticRun {
         for model in ["reference", "fem"] {
             head.extend((1..=feet.len()).map(|i| format!("foot_{i}_moved_{model}")));
         }
+        let tops = self.tops();
+        for model in ["reference", "fem"] {
+            head.extend((0..sways.len()).map(|i| name(&format!("top_{model}"), i)));
+        }
         let mut out = head.join(",") + "\n";
         let longest =
             sways.iter().flatten().map(|sway| sway.rotation.len()).fold(fem.q.len(), usize::max);
@@ -357,6 +375,7 @@ impl ElasticRun {
             }
             row.extend(uplifts.iter().map(|uplift| at(uplift)));
             row.extend([0, 1].iter().flat_map(|k| feet.iter().map(|foot| at(&foot[*k]))));
+            row.extend([0, 1].iter().flat_map(|k| tops.iter().map(|top| at(&top[*k]))));
             csv_row(&mut out, &row);
         }
         out

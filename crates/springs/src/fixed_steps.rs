@@ -24,6 +24,9 @@
 //! springs on synthetic motions is then measured on 48 that chose nothing. On earthquake-like
 //! motions they are measured in every run.
 
+pub mod instead;
+
+use self::instead::{ProgramInstead, USELESS, deciding, instead};
 use super::{
     landing_simulation::differs_from_housner,
     suite::{JudgedOn, Suites},
@@ -98,6 +101,8 @@ pub struct ProgramSprings {
     pub earthquakes: Option<ErrorsOverMotions>,
     /// Whether stiffer springs were taken, for what they do on earthquake-like motions.
     pub stiffer: bool,
+    /// Other settings, measured where a user asked for these and they are of no use.
+    pub instead: Option<ProgramInstead>,
 }
 
 /// Motions, and Housner's answers of the body as the program has it.
@@ -154,6 +159,36 @@ impl ProgramSprings {
     /// # Errors
     /// A step that is none; an integrator that is unstable.
     pub fn measured(
+        body: &Body<f64>,
+        program: FixedStepProgram,
+        suites: &Suites,
+        asked: bool,
+        effort: &Effort,
+    ) -> Result<Self, FixedStepSpringsError> {
+        let found = Self::at(body, program, suites, asked, effort)?;
+        let (median, of_use) = found.peaks();
+        if of_use || !asked {
+            return Ok(found);
+        }
+        let measure = |other| {
+            let other = Self::at(body, other, suites, asked, effort).ok()?;
+            (!effort.stopped()).then(|| other.peaks())
+        };
+        let lost = found.synthetic.is_some() && median.is_infinite();
+        Ok(Self { instead: instead(program, body.p(), (median, lost), measure), ..found })
+    }
+
+    /// The median of peaks on the motions where they err most, infinite where nothing was
+    /// measured; whether the springs are of use.
+    fn peaks(&self) -> (f64, bool) {
+        let median = |e: &Option<ErrorsOverMotions>| e.as_ref().map(|e| e.peak_quantile(0.5));
+        let medians = [&self.synthetic, &self.earthquakes].map(median);
+        let of_use = deciding(medians, self.expected.floor).is_some_and(|(x, _)| x <= USELESS);
+        (medians.into_iter().flatten().reduce(f64::max).unwrap_or(f64::INFINITY), of_use)
+    }
+
+    /// The same of these settings alone.
+    fn at(
         body: &Body<f64>,
         program: FixedStepProgram,
         suites: &Suites,
@@ -219,7 +254,15 @@ impl ProgramSprings {
         let FixedStepProgram { step, integrator, .. } = program;
         let springs = FixedStepSprings::designed(body, step, integrator, &design)?;
         let expected = springs.expected();
-        Ok(Self { program, springs, expected, synthetic: None, earthquakes: None, stiffer: false })
+        Ok(Self {
+            program,
+            springs,
+            expected,
+            synthetic: None,
+            earthquakes: None,
+            stiffer: false,
+            instead: None,
+        })
     }
 
     /// Whether nearly all synthetic motions come through and err as little as the step allows.

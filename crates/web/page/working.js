@@ -60,6 +60,7 @@ const CONTROLS = [
   [/: --scale/, ': "scale of the record"'],
   [/give --step ([\d.e-]+)/, "give a step of $1 s"],
   [/another --step/, "another step"],
+  [/give --for opensees-even/, "choose OpenSees with even steps"],
   [/ \(leave --integrator out\)/, ", the first of the list"],
   [/or --integrator backward-euler/, "or backward Euler as integrator"],
   [/pass --dt SECONDS/, 'give it under "time step"'],

@@ -14,7 +14,11 @@ use frames::{
 };
 use parameters::{elastic::ElasticParameters, predictability::standing_share};
 use run_folder::{
-    elastic::{deck, pictures::subtitle, words},
+    elastic::{
+        deck,
+        pictures::{of_base, subtitle},
+        words,
+    },
     folder::Folder,
     place::{check_folder, write_file},
     tables::csv_row,
@@ -240,13 +244,17 @@ fn draw(
         pairs.iter().map(|[ours, opensees]| [pick(ours), pick(opensees)]).collect()
     };
     let (rotations, drifts) = (of(|sway| &sway.rotation), of(|sway| &sway.drift));
+    let names: Vec<[String; 2]> = (0..pairs.len())
+        .map(|i| ["rotation", "bending"].map(|what| of_base(what, (i, pairs.len()))))
+        .collect();
     let panels: Vec<StackQuantity> = rotations
         .iter()
         .zip(&drifts)
-        .flat_map(|(rotation, drift)| {
+        .zip(&names)
+        .flat_map(|((rotation, drift), [turned, bent])| {
             [
-                StackQuantity { name: "rotation", unit: "rad", curves: rotation },
-                StackQuantity { name: "bending", unit: "m", curves: drift },
+                StackQuantity { name: turned, unit: "rad", curves: rotation },
+                StackQuantity { name: bent, unit: "m", curves: drift },
             ]
         })
         .collect();

@@ -9,6 +9,10 @@ pub struct ProgramOnRecord {
     /// be predicted; none where one of them falls or ends before that.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub top: Option<f64>,
+    /// NRMSE of its history beside the reference's over the same part: of u, or of rotations of an
+    /// elastic structure, as that of motions is; none where `top` is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub nrmse: Option<f64>,
     /// When it gives up, if it does (s).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gives_up_s: Option<f64>,
@@ -38,10 +42,17 @@ impl ProgramOnRecord {
         let top = tops.filter(|[_, reference]| *reference > ROUNDING_M && gives_up_s.is_none());
         Self {
             top: top.map(|[found, reference]| found / reference - 1.0),
+            nrmse: None,
             gives_up_s,
             falls_s: None,
             predictable: None,
             until_s: None,
         }
+    }
+
+    /// The same with the NRMSE of the history.
+    #[must_use]
+    pub fn with_history(self, nrmse: f64) -> Self {
+        Self { nrmse: Some(nrmse).filter(|x| x.is_finite() && self.top.is_some()), ..self }
     }
 }

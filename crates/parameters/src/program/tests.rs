@@ -1,4 +1,5 @@
 use super::*;
+use results::{ProgramAdvice, ProgramFault};
 
 /// Errors on 24 motions with this median of peaks; none: most are lost.
 fn errors(median: Option<f64>) -> ProgramErrors {
@@ -24,9 +25,11 @@ fn row(floor: f64, synthetic: Option<f64>) -> ProgramRow<()> {
             rebound: None,
             synthetic: Some(errors(synthetic)),
             earthquakes: None,
+            instead: None,
         },
         without_deck: false,
         on_record: None,
+        not_to_be_used: None,
     }
 }
 
@@ -55,15 +58,6 @@ fn with_earthquakes(mut row: ProgramRow<()>, median: f64) -> ProgramRow<()> {
 
 fn peaks(median: f64, earthquakes: bool) -> ProgramFault {
     ProgramFault::Peaks { median, motions: 24, earthquakes }
-}
-
-#[test]
-fn steps_are_rounded_down_to_one_two_or_five() {
-    for (step, rounded) in
-        [(0.0192, 0.01), (0.02, 0.02), (0.0067, 0.005), (9.9e-4, 5e-4), (1e-3, 1e-3), (0.7, 0.5)]
-    {
-        assert_eq!(round_step(step), rounded, "{step}");
-    }
 }
 
 /// A tenth, of motions or of a record that can be predicted, is of no use; the step follows from
@@ -115,18 +109,75 @@ fn what_errs_by_more_than_a_tenth_is_not_to_be_used() {
 
 #[test]
 fn an_integrator_that_fails_gives_way_to_the_usual_one() {
-    for (name, integrator, usual) in [
-        (Some(ProgramName::Sap2000), "newmark:0.5:0.25", false),
-        (Some(ProgramName::Sap2000), "hht:-0.3333333333333333", true),
-        (Some(ProgramName::OpenSees), "backward-euler", true),
-        (Some(ProgramName::OpenSees), "hht:-0.333", false),
-        (None, "newmark:0.5:0.25", false),
+    use ProgramAdvice::{AnotherStep, DefaultIntegrator, ForOpenSees};
+    for (name, integrator, advice) in [
+        (Some(ProgramName::Sap2000), "newmark:0.5:0.25", DefaultIntegrator),
+        (Some(ProgramName::Sap2000), "hht:-0.3333333333333333", AnotherStep),
+        (Some(ProgramName::OpenSees), "backward-euler", AnotherStep),
+        (Some(ProgramName::OpenSees), "hht:-0.333", DefaultIntegrator),
+        // to leave it out would be to take SAP2000
+        (None, "trbdf2", ForOpenSees),
+        (None, "backward-euler", AnotherStep),
+        (None, "generalized-alpha:0.8", DefaultIntegrator),
     ] {
         let failing =
             ProgramRow { name, integrator: integrator.parse().unwrap(), ..row(0.02, None) };
-        let advice = failing.not_to_be_used().unwrap().advice;
-        assert_eq!(advice != ProgramAdvice::DefaultIntegrator, usual, "{name:?} {integrator}");
+        assert_eq!(failing.not_to_be_used().unwrap().advice, advice, "{name:?} {integrator}");
     }
+}
+
+/// What was measured is the advice, whatever the law says.
+#[test]
+fn settings_that_were_measured_are_the_advice() {
+    let advice = |instead| {
+        let mut bad = row(0.2, Some(0.25));
+        bad.expected.instead = Some(instead);
+        let nameless = ProgramRow { name: None, ..bad.clone() };
+        [bad, nameless].map(|row| row.judged().not_to_be_used.unwrap().advice)
+    };
+    let (step_s, median) = (5e-4, 0.03);
+    let step = ProgramInstead::Helps { usual_of: None, step_s, median };
+    assert_eq!(advice(step), [ProgramAdvice::MeasuredStep { step_s, median }; 2]);
+    let usual_of = Some(ProgramName::OpenSees);
+    let usual = ProgramInstead::Helps { usual_of, step_s: 1e-3, median };
+    let with = |give_for| ProgramAdvice::MeasuredIntegrator { give_for, median };
+    assert_eq!(advice(usual), [with(false), with(true)]);
+    let said = with(true).to_string();
+    assert_eq!(said, "give --for opensees-even: peaks err by 3.00 % with it (measured)");
+    let none = ProgramInstead::NoneDoes { shortest_s: 2e-4 };
+    assert_eq!(advice(none), [ProgramAdvice::NoneHelps { shortest_s: 2e-4 }; 2]);
+}
+
+/// An error far above what the step makes does not fall with it.
+#[test]
+fn no_step_is_promised_where_errors_are_not_the_steps() {
+    let advice = row(0.01, Some(0.25)).not_to_be_used().unwrap().advice;
+    assert_eq!(advice, ProgramAdvice::OffLaw { times: 25.0 });
+    assert!(advice.to_string().starts_with("that is 25 times what the step alone makes"));
+}
+
+/// One motion in ten that errs by much more than the median is told of springs that are of use.
+#[test]
+fn a_large_spread_is_told() {
+    let spread = |row: ProgramRow<()>| row.spreads().map(|(e, like)| (e.peak[1], like));
+    let with = |ninety: f64, earthquakes: Option<f64>| {
+        let mut row = row(0.05, Some(0.08));
+        row.expected.synthetic = row.expected.synthetic.map(|e| wide(e, ninety));
+        row.expected.earthquakes = earthquakes.map(|ninety| wide(errors(Some(0.05)), ninety));
+        row
+    };
+    assert_eq!(spread(with(0.29, None)), None);
+    assert_eq!(spread(with(0.43, None)), Some((Some(0.43), false)));
+    assert_eq!(spread(with(0.43, Some(0.6))), Some((Some(0.43), false)));
+    assert_eq!(spread(with(0.2, Some(0.6))), Some((Some(0.6), true)));
+    // of earthquakes on which they err much anyhow another finding tells
+    let much = with_earthquakes(with(0.1, None), 0.2);
+    assert_eq!(spread(much), None);
+    assert_eq!(spread(row(0.05, Some(0.4))), None);
+}
+
+fn wide(errors: ProgramErrors, ninety: f64) -> ProgramErrors {
+    ProgramErrors { peak: [errors.peak[0], Some(ninety)], ..errors }
 }
 
 /// Steps beyond those that are measured are refused by the law alone.

@@ -2,7 +2,7 @@
 
 use crate::Table;
 use files::message::{percent, signed_percent, significant};
-use parameters::program::{ProgramErrors, ProgramRow};
+use parameters::program::{ProgramErrors, ProgramOnRecord, ProgramRow};
 
 /// How much is told of errors.
 #[derive(Clone, Copy, PartialEq)]
@@ -22,6 +22,8 @@ pub(super) struct ErrorsOf {
     pub peaks: &'static str,
     /// On which motions.
     pub motions: &'static str,
+    /// Whether the structure is elastic.
+    pub elastic: bool,
     /// Whether a small change moves the motion on the record by much.
     pub sensitive: bool,
     /// Up to when it can be, if not to its end (s).
@@ -32,7 +34,7 @@ pub(super) struct ErrorsOf {
 /// 90 % are below.
 pub(super) fn errors<U>(
     row: &ProgramRow<U>,
-    ErrorsOf { peaks, motions, sensitive, until }: ErrorsOf,
+    ErrorsOf { peaks, motions, sensitive, until, .. }: ErrorsOf,
     words: ErrorWords,
 ) -> String {
     if let Some(why) = row.not_to_be_used() {
@@ -52,10 +54,13 @@ pub(super) fn errors<U>(
     let Some((name, errors)) = worst else {
         return "errors not measured".into();
     };
-    let cell = |x: Option<f64>| x.map_or("lost".into(), percent);
-    let [median, ninety] = errors.peak.map(cell);
-    let history = errors.history[0];
-    let history = history.map_or(String::new(), |x| format!(", NRMSE {}", significant(x, 2)));
+    let cells =
+        |of: [Option<f64>; 2], words: fn(f64) -> String| of.map(|x| x.map_or("lost".into(), words));
+    let [median, ninety] = cells(errors.peak, percent);
+    let history = errors.history[0].map_or(nothing(), |_| {
+        let [median, ninety] = cells(errors.history, |x| significant(x, 2));
+        format!("; NRMSE {median} (median), {ninety} (90 %)")
+    });
     let [lost, all] = row.expected.lost();
     let each = |(name, e): &(&str, ProgramErrors)| format!("{} of {} {name}", e.lost, e.histories);
     let fails = match (lost, words) {
@@ -65,7 +70,8 @@ pub(super) fn errors<U>(
         }
         _ => format!("fails on {lost} of {all}; "),
     };
-    let [ends, top] = row.on_record.map_or([None; 2], |on| [on.gives_up_s, on.top]);
+    let [ends, top, nrmse] =
+        row.on_record.map_or([None; 3], |on| [on.gives_up_s, on.top, on.nrmse]);
     let ends = ends.map_or(nothing(), |s| {
         let then = match until.filter(|until| *until <= s) {
             Some(_) => "after what can be predicted",
@@ -80,7 +86,7 @@ pub(super) fn errors<U>(
         format!("it overturns in these steps at {} s{doubt}; ", significant(s, 3))
     });
     let fewest = words == ErrorWords::Fewest;
-    let here = top.map_or(nothing(), |top| here(top, (sensitive, until), fewest));
+    let here = top.map_or(nothing(), |top| here((top, nrmse), (sensitive, until), fewest));
     if fewest {
         let peaks = if name.starts_with("earthquake") {
             format!("on earthquakes {peaks}")
@@ -88,7 +94,7 @@ pub(super) fn errors<U>(
             peaks.to_string()
         };
         let told = match errors.peak[0] {
-            Some(_) => format!("{peaks} {median} (median), {ninety} (90 %){history}"),
+            Some(_) => format!("{peaks} median {median}, 90 %: {ninety}"),
             None => format!("most {name} are lost"),
         };
         return format!("{ends}{fails}{here}{falls}{told}");
@@ -97,14 +103,22 @@ pub(super) fn errors<U>(
     let told = lost > 0 && suites.len() == 1;
     let on = if told { nothing() } else { format!(" on {} {name}", errors.histories) };
     let within = match errors.peak[0] {
-        Some(_) => format!("{peaks} within {median} (median), {ninety} (90 %){on}{history}"),
+        Some(_) => {
+            format!("{peaks} within {median} (median), {ninety} (90 %){on}{history}")
+        }
         None => format!("most {name} are lost"),
     };
     format!("{ends}{fails}{here}{falls}{within}")
 }
 
-/// What the largest displacement on the record errs by, up to when it can be predicted (s).
-fn here(top: f64, (sensitive, until): (bool, Option<f64>), fewest: bool) -> String {
+/// What the largest displacement on the record and its history err by, up to when it can be
+/// predicted (s).
+fn here(
+    (top, nrmse): (f64, Option<f64>),
+    (sensitive, until): (bool, Option<f64>),
+    fewest: bool,
+) -> String {
+    let nrmse = nrmse.map_or(String::new(), |x| format!(", NRMSE {}", significant(x, 2)));
     let to = until.map_or(String::new(), |until| format!(" to {} s", significant(until, 3)));
     let (place, doubt) = match (fewest, sensitive) {
         (true, false) => ("here", ""),
@@ -113,15 +127,22 @@ fn here(top: f64, (sensitive, until): (bool, Option<f64>), fewest: bool) -> Stri
         (false, true) => ("this record", " (too sensitive to tell)"),
     };
     let colon = if fewest { "" } else { ":" };
-    format!("{place}{to}{colon} top {}{doubt}; ", signed_percent(top))
+    format!("{place}{to}{colon} top {}{nrmse}{doubt}; ", signed_percent(top))
 }
 
-pub(super) fn table<U>(row: &ProgramRow<U>, motions: &str) -> Table {
+pub(super) fn table<U>(row: &ProgramRow<U>, of: &ErrorsOf) -> Table {
+    let &ErrorsOf { motions, elastic, .. } = of;
     let expected = &row.expected;
     let number = |x: f64| significant(x, 2);
     let cell = |x: Option<f64>| x.map_or("lost".into(), number);
     let parts = [
-        ("by the step alone, 13 p dt (median)", Some(expected.floor)),
+        (
+            match elastic {
+                true => "of a rigid body of its size by the step alone, 13 p dt (median)",
+                false => "by the step alone, 13 p dt (median)",
+            },
+            Some(expected.floor),
+        ),
         ("by the sway before uplift", expected.stance),
         ("by what a landing gives back", expected.rebound),
     ];
@@ -146,6 +167,7 @@ pub(super) fn table<U>(row: &ProgramRow<U>, motions: &str) -> Table {
     let measured = [
         measured(motions, expected.synthetic),
         measured("earthquake-like motions", expected.earthquakes),
+        row.on_record.and_then(|on| on_record(on, of)),
     ];
     Table::new([
         "error",
@@ -156,4 +178,14 @@ pub(super) fn table<U>(row: &ProgramRow<U>, motions: &str) -> Table {
         "lost",
     ])
     .with(parts.chain(measured.into_iter().flatten()))
+}
+
+/// A row of what is measured on the record of the run, up to when it can be predicted.
+fn on_record(on: ProgramOnRecord, of: &ErrorsOf) -> Option<Vec<String>> {
+    let to = of.until.map_or(String::new(), |until| format!(" to {} s", significant(until, 3)));
+    let doubt = if of.sensitive { " (too sensitive to tell)" } else { "" };
+    let nrmse = on.nrmse.map_or("-".into(), |x| significant(x, 2));
+    let none = || "-".to_string();
+    let top = format!("top {}", signed_percent(on.top?));
+    Some(vec![format!("measured on this record{to}{doubt}"), nrmse, none(), top, none(), none()])
 }

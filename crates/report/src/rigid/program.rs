@@ -12,7 +12,7 @@ use parameters::{
     program::{ProgramOnRecord, USELESS, round_step},
 };
 use results::{Finding, Peaks};
-use rocking::motion::Motion;
+use rocking::motion::{Motion, nrmse};
 use springs::{fixed_steps::LONGEST, landing_simulation::differs_from_housner};
 
 /// Findings; those of a program that nobody asked for are notes.
@@ -71,5 +71,8 @@ pub(super) fn on_record(
     let covered = stands && samples <= theta.len().min(all.len());
     let reference = covered.then(|| of(all, None)).filter(|of| of.drift_ratio > LEAST_DRIFT);
     let found = |reference: Peaks| [of(theta, Some(u)), reference].map(|of| of.top_displacement_m);
-    Some(ProgramOnRecord { falls_s, ..ProgramOnRecord::of(reference.map(found), gives_up) })
+    let on = ProgramOnRecord::of(reference.map(found), gives_up);
+    let due = both.rocking.motion(&body).u;
+    let nrmse = if covered { nrmse(&u[..samples], &due[..samples]) } else { f64::NAN };
+    Some(ProgramOnRecord { falls_s, ..on.with_history(nrmse) })
 }

@@ -9,7 +9,8 @@ use crate::{
 /// The row of the table of peaks that gives way to warnings.
 const IMPACTS: &str = "impacts";
 /// The table of peaks without what the report alone has; the friction needed stands behind the
-/// impacts, outside of the columns, if there is room for both.
+/// impacts, outside of the columns, if there is room for both; where these give way, behind the
+/// last row.
 pub(super) fn of_screen(
     mut table: Table,
     Crowding { all_peaks, tight, .. }: Crowding,
@@ -27,10 +28,11 @@ pub(super) fn of_screen(
     let mut lines = table.lines();
     // below the head and the displacement
     parts.into_iter().for_each(|parts| lines.insert(lines.len().min(2), parts));
-    let Some(friction) = friction.filter(|_| all_peaks || !counted) else { return lines };
+    let Some(friction) = friction else { return lines };
     let friction = friction[..2].join(": ");
     let room = |line: &&mut String| line.chars().count() + 3 + friction.chars().count() <= WIDTH;
-    match lines.last_mut().filter(|line| line.starts_with(IMPACTS)).filter(room) {
+    let behind = |line: &&mut String| line.starts_with(IMPACTS) || !all_peaks && counted;
+    match lines.last_mut().filter(behind).filter(room) {
         Some(line) => *line += &format!(";  {friction}"),
         None => lines.push(friction),
     }

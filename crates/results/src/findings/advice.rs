@@ -64,19 +64,7 @@ impl Finding {
             Self::RestitutionMissed { .. } | Self::RestitutionOutOfReach { .. } => {
                 "ask for a restitution nearer to equation 2's"
             }
-            Self::ProgramStepTooLong { .. }
-            | Self::ProgramLoses { .. }
-            | Self::ProgramNotToBeUsed { .. }
-            | Self::ProgramErrsOnEarthquakes { .. }
-            | Self::ProgramStepForAccuracy { .. }
-            | Self::ProgramRestitution { .. } => return self.remedy_of_steps(),
             Self::LandingsUnfinished { .. } => "allow other springs: --max-hz, --accuracy",
-            Self::ForceWithheld { .. }
-            | Self::ForcesHeldInPart { .. }
-            | Self::ForcesOfCutoff { .. } => return self.remedy_of_forces(),
-            Self::SearchCut { .. }
-            | Self::HistoriesUnfinished { .. }
-            | Self::NearMotionsLeftOut { .. } => return self.remedy_of_search(),
             Self::Sliding { .. } => {
                 "give a shear key, or let feet slide: [friction]; --friction sets the ground's"
             }
@@ -90,6 +78,12 @@ impl Finding {
             Self::SmallestSteps { .. } => "compare with OpenSees: tune verify",
             Self::VerticalLeftOut { .. } => "take it: --vertical auto",
             Self::Doubt { remedy, .. } => return Some(remedy.clone()),
+            _ => {
+                return self
+                    .remedy_of_steps()
+                    .or_else(|| self.remedy_of_forces())
+                    .or_else(|| self.remedy_of_search());
+            }
         };
         Some(text.into())
     }

@@ -51,8 +51,34 @@ pub enum ProgramAdvice {
         /// That step (s): 1, 2 or 5 times a power of ten.
         step_s: f64,
     },
+    /// Another step, measured in the run.
+    MeasuredStep {
+        /// That step (s).
+        step_s: f64,
+        /// What peaks err by there, in the median of motions.
+        median: f64,
+    },
+    /// The program's usual integrator, measured in the run.
+    MeasuredIntegrator {
+        /// Whether OpenSees has to be named for it.
+        give_for: bool,
+        /// What peaks err by with it, in the median of motions.
+        median: f64,
+    },
+    /// No other settings that were measured are of use.
+    NoneHelps {
+        /// The shortest step of these (s).
+        shortest_s: f64,
+    },
+    /// The error is not the step's: no shorter one can be promised to help.
+    OffLaw {
+        /// It over 13 p dt.
+        times: f64,
+    },
     /// The integrator that the program is to be set to.
     DefaultIntegrator,
+    /// The same of a program without a name whose integrator OpenSees has.
+    ForOpenSees,
     /// No law tells which step.
     AnotherStep,
     /// Another deck, for none has such steps.
@@ -60,7 +86,7 @@ pub enum ProgramAdvice {
 }
 
 /// Why springs are not to be used in a program, and what to do.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NotToBeUsed {
     /// What is wrong.
     pub fault: ProgramFault,
@@ -99,6 +125,34 @@ impl fmt::Display for ProgramAdvice {
             }
             Self::DefaultIntegrator => {
                 write!(f, "take the default integrator (leave --integrator out)")
+            }
+            Self::MeasuredStep { step_s, median } => {
+                write!(
+                    f,
+                    "give --step {step_s}: peaks err by {} there (measured)",
+                    percent(*median)
+                )
+            }
+            Self::MeasuredIntegrator { give_for, median } => {
+                let what = match give_for {
+                    true => "give --for opensees-even",
+                    false => "take the default integrator (leave --integrator out)",
+                };
+                write!(f, "{what}: peaks err by {} with it (measured)", percent(*median))
+            }
+            Self::NoneHelps { shortest_s } => write!(
+                f,
+                "other settings, to steps of {}, do not help (measured): take OpenSees' deck, \
+                    whose steps follow touches",
+                quantity(*shortest_s, "s")
+            ),
+            Self::OffLaw { times } => write!(
+                f,
+                "that is {times:.0} times what the step alone makes (13 p dt), so that a shorter \
+                    one may not help: take OpenSees' deck, whose steps follow touches"
+            ),
+            Self::ForOpenSees => {
+                write!(f, "give --for opensees-even, whose integrator loses least")
             }
             Self::AnotherStep => write!(f, "try another --step, longer ones too"),
             Self::OtherDeck => write!(f, "take OpenSees' deck: no other has its dampers or tendon"),
@@ -141,6 +195,18 @@ impl Finding {
                     percent(*floor)
                 )
             }
+            Self::ProgramSpread {
+                program, step_s, median, ninety, motions, earthquakes, ..
+            } => {
+                let like = if *earthquakes { "earthquake-like " } else { "" };
+                format!(
+                    "in {program} at {} peaks err by more than {} on one {like}motion in ten \
+                        (median {}, of {motions})",
+                    quantity(*step_s, "s"),
+                    percent(*ninety),
+                    percent(*median)
+                )
+            }
             Self::ProgramStepForAccuracy { step_s, needed_s, accuracy } => format!(
                 "a history within {} (NRMSE) takes steps of {}: at {} no springs come so near",
                 significant(*accuracy, 3),
@@ -162,7 +228,9 @@ impl Finding {
             Self::ProgramStepTooLong { longest_s, .. } => {
                 return Some(ProgramAdvice::Step { step_s: *longest_s }.to_string());
             }
-            Self::ProgramErrsOnEarthquakes { .. } => "take a shorter step, or OpenSees' deck",
+            Self::ProgramErrsOnEarthquakes { .. } | Self::ProgramSpread { .. } => {
+                "take a shorter step, or OpenSees' deck"
+            }
             Self::ProgramNotToBeUsed { advice, .. } => return Some(advice.to_string()),
             Self::ProgramLoses { csi: true, .. } => {
                 "check that its history ends; else another --step, longer ones too"

@@ -34,6 +34,8 @@ impl Finding {
             Self::ProgramStepTooLong { asked: false, .. }
             | Self::ProgramLoses { asked: false, .. }
             | Self::ProgramErrsOnEarthquakes { asked: false, .. }
+            | Self::ProgramSpread { asked: false, .. }
+            | Self::ProgramSpread { earthquakes: true, .. }
             | Self::ProgramNotToBeUsed { asked: false, .. }
             | Self::ProgramRestitution { asked: false }
             | Self::ProgramStepForAccuracy { .. } => Weight::Note,

@@ -30,6 +30,15 @@ pub fn subtitle(structure: &ElasticStructure, motion: &str, omega_n_hz: f64) -> 
     format!("{}; {motion}; Ωₙ/2π = {hz} {letter}Hz", structure_title(structure))
 }
 
+/// The name of what base `i` of so many does: of two it is the left or the right one's.
+pub fn of_base(what: &str, (i, bases): (usize, usize)) -> String {
+    match (bases, i) {
+        (0 | 1, _) => what.to_string(),
+        (_, 0) => format!("{what}, left"),
+        _ => format!("{what}, right"),
+    }
+}
+
 /// All of them.
 pub(crate) fn draw(run: &ElasticRun) -> Result<Vec<Figure>, FigureError> {
     Ok(vec![history(run)?, forces(run)?])
@@ -39,14 +48,7 @@ fn history(run: &ElasticRun) -> Result<Figure, FigureError> {
     let ElasticHistories { reference, fem, sways, .. } = &run.answer.histories;
     let n = reference.history.q.len().max(fem.q.len());
     let t: Vec<f64> = (0..n).map(|i| i as f64 * run.record.dt).collect();
-    let several = sways.len() > 1;
-    let label = |what: &str, i: usize| {
-        if several {
-            format!("{what}, {}", if i == 0 { "left" } else { "right" })
-        } else {
-            what.to_string()
-        }
-    };
+    let label = |what: &str, i: usize| of_base(what, (i, sways.len()));
     let mut names = Vec::new();
     let mut curves: Vec<[&[f64]; 2]> = Vec::new();
     for (i, [reference, fem]) in sways.iter().enumerate() {
@@ -162,6 +164,8 @@ mod tests {
     #[test]
     fn one_footing_is_neither_left_nor_right() {
         assert_eq!((foot_names(1), foot_names(2).len()), (&["footing moved"][..], 2));
+        let names = [(0, 1), (0, 2), (1, 2)].map(|base| of_base("drift", base));
+        assert_eq!(names, ["drift", "drift, left", "drift, right"]);
     }
 
     #[test]

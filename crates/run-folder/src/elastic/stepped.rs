@@ -5,7 +5,7 @@ use decks::{
     ACCURACY, CornerHistory, CornerProgram, DeckFormat, EvenEnds, ExportError, SteppedDeck,
     samples_to,
 };
-use frames::assembled::Assembled;
+use frames::assembled::{Assembled, Sway, errors};
 use parameters::program::{CornerUnits, ProgramOnRecord, ProgramRow};
 use report::predictable_to;
 use results::FiledFinding;
@@ -64,8 +64,13 @@ impl ElasticRun {
             Some(part) => part.top_displacement_m[0],
             None => pair.reference.top_displacement_m,
         };
-        let found = ProgramOnRecord::of(whole.then_some([found, reference]), *gives_up_s);
-        Some(ProgramOnRecord { falls_s: *falls_s, ..found })
+        let on = ProgramOnRecord::of(whole.then_some([found, reference]), *gives_up_s);
+        let on = ProgramOnRecord { falls_s: *falls_s, ..on };
+        let found = self.assembled.sways(coordinates.iter().map(Vec::as_slice));
+        let sways = &self.answer.histories.sways;
+        let reference: Vec<Sway> = sways.iter().map(|[reference, _]| reference.clone()).collect();
+        let [rotations, _] = errors(&reference, &found, samples);
+        Some(on.with_history(rotations))
     }
 
     /// A deck for a program with fixed time steps.

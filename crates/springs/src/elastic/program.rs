@@ -31,7 +31,10 @@ use super::{
     suite::ElasticSuite,
     trial::ElasticTrial,
 };
-use crate::fixed_steps::LONGEST;
+use crate::fixed_steps::{
+    LONGEST,
+    instead::{ProgramInstead, USELESS, instead},
+};
 use dynamics::{
     effort::Effort,
     spring::{Chain, Springs},
@@ -108,6 +111,8 @@ pub struct ElasticProgramSprings {
     pub measured: Option<ErrorsOverMotions>,
     /// Whether the program does not get through the record, in its whole length.
     record_lost: bool,
+    /// Other settings, measured where these were asked for and are of no use.
+    pub instead: Option<ProgramInstead>,
 }
 
 impl ElasticProgramSprings {
@@ -123,15 +128,50 @@ impl ElasticProgramSprings {
     ) -> Option<Self> {
         let at_step = |program| Self::at_step(suite, record, program, body, effort);
         let first = at_step(program)?;
-        if program.step_is_given || !first.loses_most() {
-            return Some(first);
-        }
         let longer = |times: f64| {
             let step = times * program.step;
             at_step(FixedStepProgram { step, ..program })
         };
         let mut others = LONGER.into_iter().map_while(longer);
-        Some(others.find(|found| found.measured.is_some() && !found.loses_most()).unwrap_or(first))
+        let found = match program.step_is_given || !first.loses_most() {
+            true => first,
+            false => others
+                .find(|found| found.measured.is_some() && !found.loses_most())
+                .unwrap_or(first),
+        };
+        let asked = program != FixedStepProgram::usual() && !effort.stopped();
+        Some(if asked { found.with_instead(suite, body, at_step, effort) } else { found })
+    }
+
+    /// Of settings that a user asked for: with others that are measured where these are of no use.
+    fn with_instead(
+        self,
+        suite: &ElasticSuite,
+        body: &Body<f64>,
+        at: impl Fn(FixedStepProgram) -> Option<Self>,
+        effort: &Effort,
+    ) -> Self {
+        let (median, of_use) = self.peaks(suite);
+        if of_use {
+            return self;
+        }
+        let measure = |other| {
+            let other = at(other)?;
+            (!effort.stopped()).then(|| other.peaks(suite))
+        };
+        // on softer springs, which go with longer steps, more motions come through
+        let lost = self.loses_most() || median <= USELESS;
+        let instead = instead(self.program, body.p_squared().sqrt(), (median, lost), measure);
+        Self { instead, ..self }
+    }
+
+    /// The median of peaks, infinite where nothing was measured; whether they are of use, on the
+    /// record, too.
+    fn peaks(&self, suite: &ElasticSuite) -> (f64, bool) {
+        let median = self.measured.as_ref().map_or(f64::INFINITY, |e| e.peak_quantile(0.5));
+        let of_record = |trial| stepped(&suite.model, &self.springs.corners, self.settings, trial);
+        let record = suite.record.as_ref().and_then(of_record).map_or(0.0, |errors| errors.peak);
+        (median, median.max(record) <= USELESS && !self.record_lost)
     }
 
     /// Whether the program loses half of the motions or more.
@@ -197,7 +237,8 @@ impl ElasticProgramSprings {
         let uplift = standing.uplift().unwrap_or(GRAVITY * body.alpha().tan());
         let settings = program.settings(standing.mass * uplift);
         let floor = FLOOR * body.p_squared().sqrt() * program.step;
-        Self { program, springs, settings, floor, measured: None, record_lost: false }
+        let (measured, record_lost, instead) = (None, false, None);
+        Self { program, springs, settings, floor, measured, record_lost, instead }
     }
 
     /// Step the springs on the suite's motions, and on the whole record to see that the program
