@@ -1,4 +1,4 @@
-//! Whether springs are of use in a program with fixed time steps, and what to do where they are not.
+//! Whether springs are of use in a program with fixed time steps, and what to do if they are not.
 
 use super::{ProgramErrors, ProgramExpected, ProgramRow};
 use fixed_steps::{ProgramName, expected::FLOOR};
