@@ -217,8 +217,8 @@ mod tests {
         }
     }
 
-    /// With a tendon and dampers the finite elements follow Housner's equation with these, and their
-    /// landings give back what his do; the bare body moves otherwise.
+    /// With a tendon and dampers the finite elements follow Housner's equation with these, and
+    /// their landings give back what his do; the bare body moves otherwise.
     #[test]
     fn springs_follow_housners_equation_with_members() {
         let structure = Structure::a_frame(8.9, 2.1, 120e3).unwrap();

@@ -18,10 +18,10 @@
 //!
 //! At rest the body stays down until |u_g| > (g + a_v) tan(alpha). With vertical motion a history
 //! ends where the pivot's normal force falls to zero (`contact`); without it the regime's warnings
-//! tell. A tendon and dampers add their torques (`restraint`). Every step ends at a sample, since the record has a kink there: the kinks, not a
-//! tolerance, decide the accuracy. One Taylor step spans an interval (`series`), impacts are roots
-//! of the step's polynomial (`root`), and all of it is generic in the scalar, so derivatives pass
-//! through the events (`walk`).
+//! tell. A tendon and dampers add their torques (`restraint`). Every step ends at a sample, since
+//! the record has a kink there: the kinks, not a tolerance, decide the accuracy. One Taylor step
+//! spans an interval (`series`), impacts are roots of the step's polynomial (`root`), and all of it
+//! is generic in the scalar, so derivatives pass through the events (`walk`).
 
 mod contact;
 mod interval;

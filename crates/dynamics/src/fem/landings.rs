@@ -30,8 +30,8 @@ pub struct Landing {
     pub foot: usize,
     /// Kinetic energy of the body at touch-down (J).
     pub kinetic: f64,
-    /// Of an impact: energy taken by the springs' dashpots and let go by springs from it to the next
-    /// impact, or to the end (J); members apart.
+    /// Of an impact: energy taken by the springs' dashpots and let go by springs from it to the
+    /// next impact, or to the end (J); members apart.
     pub lost: f64,
     /// Whether it is a bounce: a touch-down of the foot that the last impact was on, that impact
     /// included, which opens again within 0.1/p (s) and before the next impact; p is the body's
