@@ -6,8 +6,9 @@ use crate::fem::{History, Landing};
 use rocking::{
     housner::Impact,
     json::null_as_infinite,
+    members::Members,
     motion::{Motion, nrmse, peak, samples_until},
-    overturning::overturned,
+    overturning::overturned_with,
     structure::Body,
 };
 
@@ -81,8 +82,22 @@ impl Match {
         fem: &History,
         restitution: f64,
     ) -> Self {
+        Self::with_members(body, Members::default(), dt, rocking, fem, restitution)
+    }
+
+    /// The same of a body with members.
+    #[doc(hidden)]
+    pub fn with_members(
+        body: &Body<f64>,
+        members: Members,
+        dt: f64,
+        rocking: (&Motion, &[Impact<f64>]),
+        fem: &History,
+        restitution: f64,
+    ) -> Self {
         let (housner, impacts) = rocking;
-        let times = [housner, &fem.motion].map(|motion| overturned(body, dt, &motion.theta));
+        let times =
+            [housner, &fem.motion].map(|motion| overturned_with(body, members, dt, &motion.theta));
         let until = times.into_iter().flatten().reduce(f64::min);
         let n = housner.len().min(fem.motion.len()).min(samples_until(until, dt));
         // Housner's solution may end before: where its pivot leaves the ground

@@ -79,7 +79,8 @@ pub fn with_members(
     let housner = rigid.as_ref().map(|rigid| rigid.motion(body));
     let reference = housner.as_ref().unwrap_or(motion);
     let impacts = &rigid.as_ref().unwrap_or(rocking).impacts;
-    let matched = Match::new(body, record.dt, (reference, impacts), &history, restitution);
+    let answers = (reference, &impacts[..]);
+    let matched = Match::with_members(body, *members, record.dt, answers, &history, restitution);
     count(&mut demands, body, record.dt, &history.landings, matched.overturned_fem_s);
     MemberHistory { members: *members, rocking: rigid, housner, history, demands, matched }
 }

@@ -89,7 +89,8 @@ impl HousnerReport {
     #[must_use]
     pub fn with_members(self, body: &Body<f64>, record: &Record, both: &ModelComparison) -> Self {
         let Some(with) = &both.with else { return self };
-        let stays = Answer::of_history(body, record.dt, &with.history).fate == Fate::NeverLifted;
+        let answer = Answer::of_history(body, with.members, record.dt, &with.history);
+        let stays = answer.fate == Fate::NeverLifted;
         // how sensitive Housner's history is tells nothing of a body that its members keep down
         let (lifted, holds_to_s) = (self.lifted && !stays, self.holds_to_s.filter(|_| !stays));
         let told = Self { lifted, holds_to_s, ..self };
@@ -271,7 +272,7 @@ pub(crate) fn verdict(
 
 /// What the structure does with its members.
 fn of_members(structure: &Structure, record: &Record, with: &MemberHistory) -> Finding {
-    let answer = Answer::of_history(&structure.body(), record.dt, &with.history);
+    let answer = Answer::of_history(&structure.body(), with.members, record.dt, &with.history);
     let motion = &with.history.motion;
     let followed_s = motion.len().saturating_sub(1) as f64 * record.dt;
     match answer.fate {

@@ -299,7 +299,13 @@ fn setting<'a, S: Scalar>(
 /// Whether a body left alone on still ground with this theta (rad) and theta' (rad/s) falls: it is
 /// beyond alpha, and what brings it back is too slow to reach alpha.
 pub fn topples(body: &Body<f64>, theta: f64, rate: f64) -> bool {
-    solve(body, 1.0, &[0.0], &released(theta, rate)).overturned().is_some()
+    topples_with(body, Members::default(), theta, rate)
+}
+
+/// The same of a body with members: it falls where its energy takes it to the ground.
+pub(crate) fn topples_with(body: &Body<f64>, members: Members, theta: f64, rate: f64) -> bool {
+    let options = released(theta, rate).with_members(members);
+    solve(body, 1.0, &[0.0], &options).overturned().is_some()
 }
 
 impl<S> Rocking<S> {

@@ -1,6 +1,6 @@
 //! When a body overturned, told in the same way from the rotations of either model.
 
-use crate::{housner::topples, structure::Body};
+use crate::{housner::topples_with, members::Members, structure::Body};
 
 /// When |theta| last grew past alpha (s), linear between the samples of theta (rad) at t = i dt, if
 /// the body lies flat at the last of them, or leans beyond alpha and would fall if the ground
@@ -14,10 +14,15 @@ use crate::{housner::topples, structure::Body};
 /// assert!((time - 0.5 * (2.0 + (body.alpha() - 0.05) / 0.1)).abs() < 1e-15);
 /// ```
 pub fn overturned(body: &Body<f64>, dt: f64, theta: &[f64]) -> Option<f64> {
+    overturned_with(body, Members::default(), dt, theta)
+}
+
+/// The same of a body with members, which a tendon may bring back from beyond alpha.
+pub fn overturned_with(body: &Body<f64>, members: Members, dt: f64, theta: &[f64]) -> Option<f64> {
     let (&last, before) = theta.split_last()?;
     let alpha = body.alpha();
     let rate = (last - before.last().unwrap_or(&last)) / dt;
-    if last.abs() <= alpha || !topples(body, last, rate) {
+    if last.abs() <= alpha || !topples_with(body, members, last, rate) {
         return None;
     }
     let lean = |theta: f64| theta * last.signum();
@@ -29,7 +34,7 @@ pub fn overturned(body: &Body<f64>, dt: f64, theta: &[f64]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{housner::history, structure::Structure};
+    use crate::{housner::history, members::Tendon, structure::Structure};
 
     /// Two ways to the same time: the sampled history, and Housner's solution that located it.
     #[test]
@@ -54,5 +59,22 @@ mod tests {
         assert!(overturned(&body, 0.01, &[0.0, 1.1 * alpha + 1e-5, 1.1 * alpha]).is_some());
         assert_eq!(overturned(&body, 0.01, &[]), None);
         assert_eq!(overturned(&body, 0.01, &[2.0 * alpha]), Some(0.0));
+    }
+
+    /// 4 times the tension that balances the weight at twice alpha brings it back from there.
+    #[test]
+    fn a_body_that_a_tendon_pulls_back_has_not_overturned() {
+        let body = Structure::paper().body::<f64>();
+        let (theta, radius) = (2.0 * body.alpha(), body.radius());
+        let theta = [0.0, 0.99 * theta, theta];
+        let weight = body.mass * crate::scalar::GRAVITY;
+        // m g R sin(theta - alpha) against k (l - h) at about the arm b, l - h about b theta
+        let stiffness = 4.0 * weight * radius * body.alpha() / (body.half_width.powi(2) * theta[2]);
+        let held = |stiffness| {
+            let tendon = Some(Tendon { stiffness, pretension: 0.0 });
+            overturned_with(&body, Members { tendon, ..Members::default() }, 0.01, &theta)
+        };
+        assert_eq!(held(stiffness), None);
+        assert!(held(0.1 * stiffness).is_some() && overturned(&body, 0.01, &theta).is_some());
     }
 }

@@ -8,8 +8,9 @@ use dynamics::fem::{self, History};
 use rocking::{
     conditioning::Conditioning,
     housner::{self, Rocking},
+    members::Members,
     motion::{largest_magnitude, samples_until},
-    overturning::overturned,
+    overturning::overturned_with,
     structure::Body,
 };
 
@@ -81,11 +82,11 @@ impl Answer {
         Self { left_ground_s, ..Self::new(body, dt, fate, rocking.overturned(), &rocking.theta) }
     }
 
-    /// Of a history on springs.
+    /// Of a history on springs, with these members.
     #[doc(hidden)]
-    pub fn of_history(body: &Body<f64>, dt: f64, history: &History) -> Self {
+    pub fn of_history(body: &Body<f64>, members: Members, dt: f64, history: &History) -> Self {
         let theta = &history.motion.theta;
-        let time = overturned(body, dt, theta);
+        let time = overturned_with(body, members, dt, theta);
         let fate = match history.outcome {
             _ if time.is_some() => Fate::Overturned,
             fem::HistoryOutcome::WorkBound { .. } | fem::HistoryOutcome::Unstable { .. } => {
@@ -133,7 +134,7 @@ impl Verdict {
         Self {
             housner,
             housner_without_vertical: None,
-            finite_elements: Answer::of_history(body, dt, history),
+            finite_elements: Answer::of_history(body, Members::default(), dt, history),
             well_conditioned: conditioning.well_conditioned(),
             nrmse_horizontal: number(matched.nrmse_horizontal),
             nrmse_vertical: number(matched.nrmse_vertical),

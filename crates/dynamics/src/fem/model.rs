@@ -148,9 +148,10 @@ impl Model {
         }
         if let Some(members::Tendon { stiffness, pretension }) = members.tendon {
             let (state, _) = model.stand(body.mass * GRAVITY + pretension);
-            let slack = body.height + state.q[Z] - pretension / stiffness;
+            let (elongation, settled) = (pretension / stiffness, state.q[Z]);
+            let height = body.height;
             model.elements.tendon =
-                Some(TendonElement { stiffness, slack, height: body.height, pretension });
+                Some(TendonElement { stiffness, elongation, settled, height, pretension });
         }
         model
     }

@@ -1,9 +1,13 @@
 //! A tendon from the mass to the ground midway between the feet: it pulls along its line once it is
-//! longer than l_0.
+//! longer than when slack.
 //!
 //! ```text
-//!   l = hypot(X, h + Z)     T = max(0, k (l - l_0))     U = T^2/(2 k)
+//!   l = hypot(X, h + Z)     l_s = h + Z_s settled     T = max(0, k (e + l - l_s)),  e = N_0/k
+//!   U = k (l - l_s) (e + (l - l_s)/2)      l - l_s = (X^2 + (Z - Z_s)(2 h + Z + Z_s))/(l + l_s)
 //! ```
+//!
+//! The energy counts from the settled structure, and l - l_s without a difference of lengths: on
+//! stiff springs a body at rest moves by less than what rounding makes of its height.
 
 use super::{Element, ElementTangent};
 use crate::fem::model::{Vector, X, Z};
@@ -13,8 +17,11 @@ use crate::fem::model::{Vector, X, Z};
 pub(crate) struct TendonElement {
     /// k (N/m).
     pub stiffness: f64,
-    /// l_0, at which it begins to pull (m).
-    pub slack: f64,
+    /// e, by which it is longer than when slack while the structure stands settled; below zero it is
+    /// slack then (m).
+    pub elongation: f64,
+    /// Z_s, of the mass while the structure stands settled (m).
+    pub settled: f64,
     /// h, of the mass above the anchor while the structure stands unstressed (m).
     pub height: f64,
     /// T while the structure stands settled (N).
@@ -25,8 +32,8 @@ pub(crate) struct TendonElement {
 struct TendonState {
     /// T (N).
     tension: f64,
-    /// l - l_0 (m).
-    stretch: f64,
+    /// l - l_s (m).
+    longer: f64,
     /// l (m).
     length: f64,
     /// From the anchor to the mass.
@@ -38,11 +45,13 @@ impl TendonElement {
     fn pull(&self, q: &Vector) -> Option<TendonState> {
         let (x, z) = (q[X], self.height + q[Z]);
         let length = (x * x + z * z).sqrt();
-        let stretch = length - self.slack;
+        let settled = self.height + self.settled;
+        let longer = (x * x + (q[Z] - self.settled) * (z + settled)) / (length + settled);
+        let stretch = self.elongation + longer;
         let tension = self.stiffness * stretch;
         (stretch > 0.0).then(|| TendonState {
             tension,
-            stretch,
+            longer,
             length,
             direction: [x / length, z / length],
         })
@@ -63,7 +72,12 @@ impl TendonElement {
 
 impl Element for TendonElement {
     fn energy(&self, q: &Vector) -> f64 {
-        self.pull(q).map_or(0.0, |pull| pull.tension * pull.stretch * 0.5)
+        let (k, e) = (self.stiffness, self.elongation.max(0.0));
+        match self.pull(q) {
+            None => -0.5 * k * e * e,
+            Some(pull) if e > 0.0 => k * pull.longer * (e + 0.5 * pull.longer),
+            Some(pull) => 0.5 * pull.tension * pull.tension / k,
+        }
     }
 
     fn force(&self, q: &Vector, _: &Vector) -> [f64; 3] {

@@ -10,13 +10,16 @@ use rocking::structure::Body;
 const Q: Vector = [0.4, 0.03, 0.07, 0.0, 0.0, 0.0, 0.0];
 const V: Vector = [0.5, -0.2, 0.3, 0.0, 0.0, 0.0, 0.0];
 
+const TENDON: TendonElement =
+    TendonElement { stiffness: 4e6, elongation: 0.0, settled: 0.0, height: 9.0, pretension: 0.0 };
+
 fn body() -> Body<f64> {
     Body { mass: 1e5, half_width: 1.05, height: 9.0, inertia: 2e5 }
 }
 
 /// Every element, by name.
 fn all() -> Vec<(&'static str, Box<dyn Element>)> {
-    let tendon = |slack: f64| TendonElement { stiffness: 4e6, slack, height: 9.0, pretension: 0.0 };
+    let tendon = |slack: f64| TendonElement { elongation: 9.0 - slack, ..TENDON };
     vec![
         ("dampers", Box::new(Dampers::new(3e4, &body()))),
         ("dampers aloft", Box::new(Dampers::new(3e4, &body()).aloft())),
@@ -70,13 +73,17 @@ fn the_power_taken_is_that_of_the_force_beyond_its_potential() {
 
 #[test]
 fn a_slack_tendon_does_nothing_and_an_upright_one_pulls_by_its_stretch() {
-    let tendon = TendonElement { stiffness: 4e6, slack: 8.9, height: 9.0, pretension: 0.0 };
+    let tendon = TendonElement { elongation: 0.1, ..TENDON };
     let still = [0.0; N];
     // 0.1 m of stretch, upright
-    assert!(
-        (tendon.tension(&still) - 4e5).abs() < 1e-6 && (tendon.energy(&still) - 2e4).abs() < 1e-6
-    );
+    assert!((tendon.tension(&still) - 4e5).abs() < 1e-6 && tendon.energy(&still) == 0.0);
+    // lowered by more than that it has given 20 kJ
+    let lowered = moved(&still, Z, -0.2);
+    assert!((tendon.energy(&lowered) + 2e4).abs() < 1e-6 && tendon.tension(&lowered) == 0.0);
+    // a stretch far below what rounding makes of the height
+    let hardly = moved(&still, Z, 1e-20);
+    assert!((tendon.energy(&hardly) / 4e-15 - 1.0).abs() < 1e-12, "{}", tendon.energy(&hardly));
     assert_eq!(tendon.force(&still, &still)[0], 0.0);
-    let slack = TendonElement { slack: 9.9, ..tendon };
+    let slack = TendonElement { elongation: -0.9, ..tendon };
     assert_eq!((slack.tension(&Q), slack.energy(&Q), slack.force(&Q, &V)), (0.0, 0.0, [0.0; 3]));
 }
