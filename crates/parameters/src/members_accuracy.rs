@@ -35,8 +35,11 @@ impl MembersAccuracy {
     ) -> Option<Self> {
         let (reference, found) = (with.housner.as_ref()?, &with.history.motion);
         let falls = [with.matched.overturned_housner_s, with.matched.overturned_fem_s];
-        let until_s = falls.into_iter().flatten().chain(until).reduce(f64::min);
-        let samples = samples_until(until_s, dt).min(reference.len()).min(found.len());
+        // where the pivot lets go his history ends before the record does
+        let shorter = reference.len().min(found.len());
+        let cut = (reference.len() != found.len()).then_some(shorter.saturating_sub(1) as f64 * dt);
+        let until_s = falls.into_iter().flatten().chain(until).chain(cut).reduce(f64::min);
+        let samples = samples_until(until_s, dt).min(shorter);
         let first = |of: &[f64]| of[..samples].to_vec();
         let u = [&reference.u, &found.u].map(|u| first(u));
         let uplift = [&reference.theta, &found.theta]

@@ -122,8 +122,15 @@ impl AccuracyReport {
                 peaks_allowed: of_peaks,
             }
         });
+        let within = |found: Option<f64>, allowed: Option<f64>| {
+            allowed.is_none_or(|allowed| found.is_none_or(|found| found <= allowed))
+        };
+        let reached = a.reached
+            && with_members.as_ref().is_none_or(|row| {
+                within(row.history, row.history_allowed) && within(row.peaks, row.peaks_allowed)
+            });
         measured.splice(..0, with_members);
-        let (history_asked, peaks_asked, reached) = (of_history, of_peaks, a.reached);
+        let (history_asked, peaks_asked) = (of_history, of_peaks);
         Some(Self { history_asked, peaks_asked, reached, measured })
     }
 

@@ -15,7 +15,7 @@ use rocking::{
     conditioning::Conditioning,
     housner::{self, Rocking},
     members::{Friction, Members},
-    motion::{TimedPeak, largest_magnitude, samples_until},
+    motion::{TimedPeak, largest_magnitude},
     regime::{self, Regime},
     scalar::GRAVITY,
     structure::{Body, Structure},
@@ -83,9 +83,8 @@ impl HousnerReport {
         }
     }
 
-    /// The same of a structure whose tendon and dampers press its feet on the ground, or lift them:
-    /// what its history between landings asks of the ground. Feet that may slip ask for no more
-    /// than they get, so that of those Housner's body still tells.
+    /// The same of a structure with a tendon and dampers, by Housner's history with them. Feet that
+    /// may slip ask for no more than they get, so that of those the bare body still tells.
     #[must_use]
     pub fn with_members(self, body: &Body<f64>, record: &Record, both: &ModelComparison) -> Self {
         let Some(with) = &both.with else { return self };
@@ -94,30 +93,12 @@ impl HousnerReport {
         // how sensitive Housner's history is tells nothing of a body that its members keep down
         let (lifted, holds_to_s) = (self.lifted && !stays, self.holds_to_s.filter(|_| !stays));
         let told = Self { lifted, holds_to_s, ..self };
-        if with.members.friction.is_some() {
-            return told;
-        }
-        let fallen = samples_until(with.matched.overturned_fem_s, record.dt);
-        let samples = fallen.min(with.demands.feet.len());
-        let landings = &with.history.landings;
-        // as for Housner's: it lifts where the ground's force passes through the foot
-        let lifts = with.demands.feet[..samples].iter().position(|feet| {
-            let [left, right] = feet.map(|[_, press]| press > 0.0);
-            left != right
-        });
-        let mut needed = lifts.map_or(TimedPeak { value: 0.0, time: 0.0 }, |i| TimedPeak {
-            value: body.half_width / body.height,
-            time: i as f64 * record.dt,
-        });
-        for i in fem::between_landings(body, record.dt, landings, samples) {
-            let [[left_h, left_n], [right_h, right_n]] = with.demands.feet[i];
-            let (along, press) = ((left_h + right_h).abs(), left_n + right_n);
-            if press > 0.0 && along / press > needed.value {
-                needed = TimedPeak { value: along / press, time: i as f64 * record.dt };
-            }
-        }
-        let lands = !landings.is_empty();
-        Self { regime: Regime { friction_needed: needed, ..self.regime }, lands, ..told }
+        let Some(rocking) = &with.rocking else { return told };
+        let (ground, friction) = ((&record.accel[..], record.up()), self.regime.friction);
+        let members = &with.members;
+        let regime = regime::check_with(body, members, (record.dt, 1.0), ground, rocking, friction);
+        let lands = !with.history.landings.is_empty();
+        Self { regime, lands, left_ground_s: rocking.left_ground(), ..told }
     }
 
     /// With how sensitive the history with members is, if there are any, on these springs.

@@ -100,7 +100,7 @@ impl RigidRun {
         let (of_deck, until) = (None, None);
         let mut run = Self { case, job, front, both, report, of_steps, of_deck, until, parameters };
         (run.of_deck, run.until) = run.foretold();
-        let Self { case, job, both, until, of_steps, parameters, .. } = &mut run;
+        let Self { case, job, both, report, until, of_steps, parameters, .. } = &mut run;
         let dt = job.record.dt;
         let on_record = of_steps
             .as_ref()
@@ -108,9 +108,12 @@ impl RigidRun {
         if let Some(row) = &mut parameters.program {
             row.on_record = on_record;
         }
+        // where his pivot would have to hold the body down no comparison means anything
+        let flight = report.regime.free_flight.map(|flight| flight.time);
+        let compared = until.iter().copied().chain(flight).reduce(f64::min);
         let of_members = both.with.as_ref();
         parameters.accuracy_with_members =
-            of_members.and_then(|with| MembersAccuracy::new(&job.body, dt, with, *until));
+            of_members.and_then(|with| MembersAccuracy::new(&job.body, dt, with, compared));
         let forces = design_forces(kind, &job.body, &job.record, both, softer.as_ref(), *until);
         // where springs answer, softer ones check forces
         let checked = parameters.assessment.as_ref().filter(|_| softer.is_none());
@@ -132,10 +135,12 @@ impl RigidRun {
         let sap2000 = parameters.members().is_none();
         let alone = alone(parameters);
         let mut facts = alone.taken.facts.clone();
-        // a tendon holds the body down for longer than Housner's, and feet that slide do
-        let members = &self.case.members;
-        let own = members.tendon.is_some() || members.friction.is_some();
-        let first = self.job.rocking.uplifts.first().filter(|_| !own);
+        // feet that slide hold the body down for longer than his
+        let rocking = match &self.both.with {
+            Some(with) => with.rocking.as_ref(),
+            None => Some(&self.job.rocking),
+        };
+        let first = rocking.and_then(|rocking| rocking.uplifts.first());
         facts.extend(first.map(|uplift| super::first_lift(uplift.time)));
         Run {
             taken: Taken {
@@ -207,7 +212,7 @@ impl RigidRun {
     /// (s), if not to its end.
     fn foretold(&self) -> (Option<Finding>, Option<f64>) {
         let Self { case, job, both, report, parameters, .. } = self;
-        // his pivot is that of a body without members
+        // with members the springs answer, which go on where his pivot lets go
         let own =
             |f: &Finding| both.with.is_none() || !matches!(f, Finding::PivotLeavesGround { .. });
         let of = |finding: &Finding| finding.predictable_to().filter(|_| own(finding));

@@ -98,7 +98,10 @@ impl Run {
     fn foretold(&self) -> String {
         let any = |of: fn(&Finding) -> bool| self.findings.iter().any(|filed| of(&filed.finding));
         let s = |time: f64| significant(time, 4);
-        let ends = self.peaks.and_then(|pair| pair.reference_ends_s);
+        let ends = self.findings.iter().find_map(|filed| match filed.finding {
+            Finding::PivotLeavesGround { time_s } => Some(time_s),
+            _ => None,
+        });
         let alone =
             ends.map_or(String::new(), |time| format!("; after {} s by springs alone", s(time)));
         let end = self.findings.iter().find_map(|filed| match filed.finding {

@@ -15,7 +15,7 @@ pub use peaks::{ForetoldPeaks, PartsOfTop, PeakPair, PeakTimes, Peaks};
 
 /// Up to when a motion can be foretold (s), if that is not all of it.
 pub fn predictable_to(findings: &[FiledFinding]) -> Option<f64> {
-    // Housner's pivot is that of a body without members
+    // with members the springs answer, which go on where Housner's pivot lets go
     let beside = findings.iter().any(|f| matches!(f.finding, Finding::MembersBeside { .. }));
     let own =
         |f: &&FiledFinding| !(beside && matches!(f.finding, Finding::PivotLeavesGround { .. }));

@@ -32,6 +32,9 @@ mod root;
 mod series;
 mod walk;
 
+pub(crate) use restraint::Restraint;
+pub(crate) use series::StepStart;
+
 use crate::members::Members;
 use crate::motion::{Motion, samples_until};
 use crate::scalar::{GRAVITY, Scalar, real};

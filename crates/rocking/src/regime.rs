@@ -32,7 +32,8 @@
 //! B. With the friction of Housner's own impulse it is e > 0, I_cg > m (b^2 - h^2): H/B >
 //! 1/sqrt(2). An A-frame needs mu >= b/h = tan(alpha), which it needs to lift off anyway.
 
-use crate::housner::Rocking;
+use crate::housner::{Restraint, Rocking, StepStart};
+use crate::members::Members;
 use crate::motion::TimedPeak;
 use crate::motion::samples_until;
 use crate::scalar::GRAVITY;
@@ -68,11 +69,29 @@ pub struct Regime {
 pub fn check(
     body: &Body<f64>,
     dt: f64,
-    (accel, vertical): (&[f64], &[f64]),
+    ground: (&[f64], &[f64]),
     scale: f64,
     rocking: &Rocking<f64>,
     friction: f64,
 ) -> Regime {
+    check_with(body, &Members::default(), (dt, scale), ground, rocking, friction)
+}
+
+/// The same of a body with a tendon and dampers, whose history has them, too: forces are those of
+/// the pivot; `friction` of the ground is the coefficient that is available.
+pub fn check_with(
+    body: &Body<f64>,
+    members: &Members,
+    (dt, scale): (f64, f64),
+    (accel, vertical): (&[f64], &[f64]),
+    rocking: &Rocking<f64>,
+    friction: f64,
+) -> Regime {
+    let restraint = Restraint::of(body, members);
+    let hold = restraint.as_ref().map_or(0.0, |restraint| restraint.hold);
+    let forces = |side, theta, rate, ground| {
+        forces_with(body, restraint.as_ref(), side, (theta, rate), ground)
+    };
     // in g; gamma = 1 + a_v/g beside u_g/g
     let at = |record: &[f64], i: usize| record.get(i).copied().unwrap_or(0.0) * scale / GRAVITY;
     let sample = |i: usize| (at(accel, i), 1.0 + at(vertical, i));
@@ -96,15 +115,15 @@ pub fn check(
             let ground = (a0 + (a1 - a0) * part, g0 + (g1 - g0) * part);
             // the body comes from the side that it moves away from
             let from = -impact.rate_before.signum();
-            worst.take(impact.time, forces(body, from, 0.0, impact.rate_before, ground));
-            worst.take(impact.time, forces(body, -from, 0.0, impact.rate_after, ground));
+            worst.take(impact.time, forces(from, 0.0, impact.rate_before, ground));
+            worst.take(impact.time, forces(-from, 0.0, impact.rate_after, ground));
         }
         let ground = sample(i);
         if theta == 0.0 && rate == 0.0 {
-            worst.take(time, ground);
+            worst.take(time, (ground.0, ground.1 + hold));
         } else {
             let side = if theta == 0.0 { rate.signum() } else { theta.signum() };
-            worst.take(time, forces(body, side, theta, rate, ground));
+            worst.take(time, forces(side, theta, rate, ground));
         }
     }
     Regime {
@@ -192,14 +211,28 @@ pub fn forces(
     side: f64,
     theta: f64,
     rate: f64,
+    ground: (f64, f64),
+) -> (f64, f64) {
+    forces_with(body, None, side, (theta, rate), ground)
+}
+
+/// The same of a body with a tendon and dampers: what of it the foot bears.
+fn forces_with(
+    body: &Body<f64>,
+    restraint: Option<&Restraint<f64>>,
+    side: f64,
+    (theta, rate): (f64, f64),
     (ground, gamma): (f64, f64),
 ) -> (f64, f64) {
     let (sin, cos) = (body.alpha() * side - theta).sin_cos();
+    let at = StepStart { w: theta * side, rate: rate * side, sin: sin * side, cos };
+    let torque = restraint.map_or(0.0, |restraint| restraint.torque(&at));
+    let (pull, press) = restraint.map_or((0.0, 0.0), |restraint| restraint.on_pivot(&at));
     let r = body.radius() / GRAVITY;
-    let acceleration = -body.p_squared() * (gamma * sin + ground * cos); // (1), (3)
+    let acceleration = -body.p_squared() * (gamma * sin + ground * cos) - side * torque; // (1), (3)
     let horizontal = r * (cos * acceleration + sin * rate * rate) + ground;
     let vertical = r * (sin * acceleration - cos * rate * rate) + gamma;
-    (horizontal, vertical)
+    (horizontal + side * pull, vertical + press)
 }
 
 struct Worst {

@@ -41,7 +41,7 @@ fn lifts(structure: &Structure, members: &Members) -> (&'static str, String) {
     };
     let without = g(&Members::default());
     let slope = reference::uplift_g(structure, &Members::default());
-    match members.tendon {
+    match members.tendon.filter(|tendon| tendon.pretension > 0.0) {
         Some(_) => {
             ("lifts at g tan(alpha) (1 + T/W)", format!("{}, without tendon {without}", g(members)))
         }

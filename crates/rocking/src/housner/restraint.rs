@@ -95,6 +95,19 @@ impl<S: Scalar> Restraint<S> {
             + self.damping * upright * upright * at.rate
     }
 
+    /// What tendon and dampers take from the pivot over the weight: the tendon's pull on the mass
+    /// away from the side that it leans to, and all that they press down.
+    pub(crate) fn on_pivot(&self, at: &StepStart<S>) -> (S, S) {
+        let (sin, cos) = (at.sin, at.cos);
+        let length = (self.square - self.twice * sin).sqrt();
+        let tendon = self.pull * cos * (S::one() - self.slack / length);
+        let upright = self.cos_alpha * cos + self.sin_alpha * sin;
+        let lifted = self.damping * upright * at.rate * 0.5;
+        // towards the anchor, b - R sin psi across from the mass and R cos psi below it
+        let across = (self.sin_alpha - sin) / cos;
+        (self.share * tendon * across, self.share * (tendon + lifted))
+    }
+
     /// The part of a step of h (s) that one series can take, for dampers.
     pub(crate) fn part(&self, h: f64) -> f64 {
         (DAMPED / (self.damping.re() * h)).min(1.0)
@@ -254,6 +267,28 @@ mod tests {
             let pressed = tension + 8e4 * 2.0 * BODY.half_width * w.cos() * at.rate;
             let found = value_and_slope(&series.press, x).0 * BODY.mass * GRAVITY;
             assert_relative_eq!(found, pressed, max_relative = 1e-10);
+        }
+    }
+
+    /// The forces on the pivot turn the body about its mass, with the dampers' on the other corner:
+    /// I_cg w''. The tendon acts on the mass.
+    #[test]
+    fn the_pivots_forces_turn_the_body_about_its_mass() {
+        let of = restraint();
+        let (r, b2) = (BODY.radius(), 2.0 * BODY.half_width);
+        let (gamma, ground) = (0.9, 0.2);
+        for (w, rate) in [(0.01, 0.2), (0.05, -0.3)] {
+            let at = start(w, rate);
+            let second = -BODY.p_squared() * (gamma * at.sin + ground * at.cos) - of.torque(&at);
+            // x from the pivot towards the other foot; the ground moves the other way
+            let across = r / GRAVITY * (-at.cos * second - at.sin * rate * rate) - ground;
+            let upwards = r / GRAVITY * (at.sin * second - at.cos * rate * rate) + gamma;
+            let (pull, press) = of.on_pivot(&at);
+            let (x, z) = (across - pull, upwards + press);
+            let damper = 8e4 * b2 * w.cos() * rate / (BODY.mass * GRAVITY);
+            let arm = b2 * w.cos() - r * at.sin;
+            let moment = (r * at.cos * x - r * at.sin * z - damper * arm) * BODY.mass * GRAVITY;
+            assert_relative_eq!(moment, BODY.inertia * second, max_relative = 1e-9);
         }
     }
 }

@@ -17,8 +17,8 @@ use crate::fem::model::{Vector, X, Z};
 pub(crate) struct TendonElement {
     /// k (N/m).
     pub stiffness: f64,
-    /// e, by which it is longer than when slack while the structure stands settled; below zero it is
-    /// slack then (m).
+    /// e, by which it is longer than when slack while the structure stands settled; below zero it
+    /// is slack then (m).
     pub elongation: f64,
     /// Z_s, of the mass while the structure stands settled (m).
     pub settled: f64,
