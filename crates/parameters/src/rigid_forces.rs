@@ -57,7 +57,8 @@ pub fn design_forces(
                 let samples = until([matched.overturned_fem_s, None]).min(history.motion.len());
                 let kept = all_between(body, dt, history, samples);
                 let mut peaks = on_springs(kind, body, dt, demands, &kept);
-                let (of, members) = ((history, demands), both.with.is_some());
+                let members = both.with.as_ref().map(|with| &with.members);
+                let of = (history, demands);
                 let near = near_landings((kind, body), record, of, &kept, members);
                 let near = near.iter().filter(|(i, _)| *i < samples);
                 near.for_each(|(i, row)| row.raise(*i as f64 * dt, &mut peaks));

@@ -216,7 +216,18 @@ pub fn forces(
     forces_with(body, None, side, (theta, rate), ground)
 }
 
-/// The same of a body with a tendon and dampers: what of it the foot bears.
+/// The same of a body with a tendon and dampers, of its motion (theta, theta'): what of it the foot
+/// bears.
+pub fn forces_of_foot(
+    body: &Body<f64>,
+    members: &Members,
+    side: f64,
+    motion: (f64, f64),
+    ground: (f64, f64),
+) -> (f64, f64) {
+    forces_with(body, Restraint::of(body, members).as_ref(), side, motion, ground)
+}
+
 fn forces_with(
     body: &Body<f64>,
     restraint: Option<&Restraint<f64>>,

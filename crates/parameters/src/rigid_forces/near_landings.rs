@@ -3,6 +3,7 @@
 use super::ground_row::{GroundRow, standing_feet};
 use dynamics::fem::{DAMPERS, Demands, History};
 use rocking::{
+    members::Members,
     regime,
     scalar::GRAVITY,
     structure::{Body, Kind},
@@ -10,16 +11,16 @@ use rocking::{
 use strong_motion::Record;
 
 /// Forces near landings, at the other samples than `kept`, of a body that presses on the ground: m
-/// (a_g, g + a_v) where both feet press and it can stand so, those of equation (1) where one does.
-/// With members, which equation (1) has not, what m (g + a_v) of a vertical motion presses with,
-/// and what the dashpot of the corner in the air does, which moves as the body does. A landing adds
-/// its impulse, which is not a design force.
+/// (a_g, g + a_v) where both feet press and it can stand so, those of equation (1) where one does,
+/// with a tendon and dampers if it has these, and what the dashpot of the corner in the air does,
+/// which moves as the body does. With friction, or where both feet press under members, what m (g +
+/// a_v) of a vertical motion presses with. A landing adds its impulse, which is not a design force.
 pub(super) fn near_landings(
     (kind, body): (Kind, &Body<f64>),
     record: &Record,
     (history, demands): (&History, &Demands),
     kept: &[usize],
-    has_members: bool,
+    members: Option<&Members>,
 ) -> Vec<(usize, GroundRow)> {
     let theta = &history.motion.theta;
     let row = |i: usize| {
@@ -30,12 +31,24 @@ pub(super) fn near_landings(
         let at = |record: &[f64]| record.get(i).copied().unwrap_or(0.0) / GRAVITY;
         let ground = (at(&record.accel), 1.0 + at(record.up()));
         let (side, weight) = (if right > left { 1.0 } else { -1.0 }, body.mass * GRAVITY);
-        if has_members {
+        let [before, after] = [i.saturating_sub(1), (i + 1).min(theta.len() - 1)];
+        let rate = (theta[after] - theta[before]) / ((after - before).max(1) as f64 * record.dt);
+        let one = left.min(right) <= 0.0;
+        if let Some(members) = members.filter(|members| members.act() && one) {
+            let of = regime::forces_of_foot(body, members, side, (theta[i], rate), ground);
+            let pivot = [of.0 * weight, of.1 * weight];
+            let feet = match side > 0.0 {
+                true => [[0.0, demands.at[i][DAMPERS[0]]], pivot],
+                false => [pivot, [0.0, demands.at[i][DAMPERS[1]]]],
+            };
+            return (of.1 > 0.0).then(|| (i, GroundRow::new(kind, body, theta[i], feet)));
+        }
+        if members.is_some() {
             let shaken = !record.up().is_empty() && ground.1 > 0.0;
             let pressed = if shaken { weight * ground.1 } else { 0.0 };
             let lifted = usize::from(side < 0.0);
             let of_damper = demands.at[i][DAMPERS[lifted]];
-            let damper = Some(of_damper).filter(|force| *force != 0.0 && left.min(right) <= 0.0);
+            let damper = Some(of_damper).filter(|force| *force != 0.0 && one);
             let row = GroundRow::pressing(kind, body, side, pressed);
             return (shaken || damper.is_some())
                 .then(|| (i, row.hung(kind, body, (lifted, damper.unwrap_or(0.0)), theta[i])));
@@ -44,8 +57,6 @@ pub(super) fn near_landings(
             let feet = standing_feet(body, weight, ground);
             return Some((i, GroundRow::new(kind, body, theta[i], feet)));
         }
-        let [before, after] = [i.saturating_sub(1), (i + 1).min(theta.len() - 1)];
-        let rate = (theta[after] - theta[before]) / ((after - before).max(1) as f64 * record.dt);
         let (f, n) = regime::forces(body, side, theta[i], rate, ground);
         let force = [f, n].map(|share| share * weight);
         let feet = if side > 0.0 { [[0.0; 2], force] } else { [force, [0.0; 2]] };
@@ -79,7 +90,7 @@ mod tests {
         let of = (&both.fem, &both.demands);
         let housner = ground_forces(&body, (&record.accel, record.up()), &both.rocking);
         let weight = 640.0 * GRAVITY;
-        let near = near_landings((Kind::Block, &body), &record, of, &[], false);
+        let near = near_landings((Kind::Block, &body), &record, of, &[], None);
         let [mut rocked, mut stood] = [0; 2];
         for (i, row) in &near {
             let (f, n) = housner[*i];
@@ -98,7 +109,8 @@ mod tests {
         }
         assert!(rocked > 50 && stood > 5, "{rocked} {stood}");
         let kept: Vec<usize> = (0..both.fem.motion.len()).filter(|i| *i != 30).collect();
-        let tied = near_landings((Kind::Block, &body), &record, of, &kept, true);
+        let tied =
+            near_landings((Kind::Block, &body), &record, of, &kept, Some(&Members::default()));
         assert_eq!(tied.iter().map(|(i, _)| *i).collect::<Vec<_>>(), [30]);
         let least = 640.0 * (GRAVITY + record.up()[30]);
         assert!((tied[0].1.largest(3) / -least - 1.0).abs() < 1e-12);
