@@ -26,19 +26,24 @@
 mod contact;
 mod interval;
 mod lanes;
+mod many;
+mod numbers;
 mod rest;
 mod restraint;
 mod root;
+mod samples;
 mod series;
 mod walk;
 
+pub use many::{RockingSummary, solve_lanes, summaries};
 pub(crate) use restraint::Restraint;
 pub(crate) use series::StepStart;
 
 use crate::members::Members;
-use crate::motion::{Motion, samples_until};
+use crate::motion::{Motion, largest_magnitude, samples_until};
 use crate::scalar::{GRAVITY, Scalar, real};
 use crate::structure::Body;
+use samples::WalkSamples;
 use std::sync::Arc;
 use strong_motion::Record;
 
@@ -187,88 +192,12 @@ pub fn solve_with_derivatives<S: Scalar>(
     accel: &[f64],
     options: &RockingOptions<S>,
 ) -> Rocking<S> {
-    let (theta, rate) = start(options);
-    walked(setting(body, dt, accel, options), options.vertical.is_some(), theta, rate)
-}
-
-fn walked<S: Scalar>(set: walk::Setting<'_, S>, vertical: bool, theta: S, rate: S) -> Rocking<S> {
-    match vertical {
-        false => walk::walk::<S, false>(set, theta, rate),
-        true => walk::walk::<S, true>(set, theta, rate),
+    let set = setting(body, dt, accel, options);
+    let samples = WalkSamples::kept(set.accel.len());
+    match options.vertical {
+        None => walk::Walk::<S, false>::new(set, start(options), samples).go_to_end().end(),
+        Some(_) => walk::Walk::<S, true>::new(set, start(options), samples).go_to_end().end(),
     }
-}
-
-/// Rock many bodies on one record, or one body on many scales of it, sixteen at a time in
-/// lock-step, on every thread; each result is, bit for bit, that of the body rocked alone; those
-/// with a tendon or dampers are rocked one by one. The
-/// longer of the two lists decides how many there are; the shorter one is repeated from its start.
-/// Without bodies, or without options, there are no histories. Options with the same vertical
-/// record (clones of one `Arc`) go side by side.
-pub fn solve_lanes(
-    bodies: &[Body<f64>],
-    dt: f64,
-    accel: &[f64],
-    options: &[RockingOptions<f64>],
-) -> Vec<Rocking<f64>> {
-    if bodies.is_empty() || options.is_empty() {
-        return Vec::new();
-    }
-    let all: Vec<_> = (0..bodies.len().max(options.len()))
-        .map(|i| (i, &bodies[i % bodies.len()], &options[i % options.len()]))
-        .collect();
-    let mut grounds: Vec<Option<&Arc<[f64]>>> = Vec::new();
-    for (_, _, options) in &all {
-        if !grounds.iter().any(|&ground| is_same(ground, options.vertical.as_ref())) {
-            grounds.push(options.vertical.as_ref());
-        }
-    }
-    let mut placed = Vec::with_capacity(all.len());
-    for ground in grounds {
-        let those = all.iter().filter(|(_, _, options)| is_same(ground, options.vertical.as_ref()));
-        let (restrained, those): (Vec<_>, Vec<_>) = those
-            .map(|&(i, body, options)| (i, setting(body, dt, accel, options), start(options)))
-            .partition(|(_, set, _)| set.restraint.is_some());
-        let vertical = ground.is_some();
-        placed.extend(parallel::map_owned(restrained, |(i, set, (theta, rate))| {
-            (i, walked(set, vertical, theta, rate))
-        }));
-        let those = those.into_iter();
-        match ground {
-            None => together::<false>(those, &mut placed),
-            Some(_) => together::<true>(those, &mut placed),
-        }
-    }
-    placed.sort_by_key(|(i, _)| *i);
-    placed.into_iter().map(|(_, rocking)| rocking).collect()
-}
-
-fn is_same(a: Option<&Arc<[f64]>>, b: Option<&Arc<[f64]>>) -> bool {
-    match (a, b) {
-        (None, None) => true,
-        (Some(a), Some(b)) => Arc::ptr_eq(a, b),
-        _ => false,
-    }
-}
-
-/// Walks on one ground in lock-step; each with its place.
-fn together<'a, const V: bool>(
-    those: impl Iterator<Item = (usize, walk::Setting<'a, f64>, (f64, f64))>,
-    placed: &mut Vec<(usize, Rocking<f64>)>,
-) {
-    let mut walks: Vec<_> = those
-        .map(|(i, set, (theta, rate))| (i, walk::Walk::<f64, V>::new(set, theta, rate)))
-        .collect();
-    // those that take the same steps side by side
-    walks.sort_by_key(|(_, walk)| walk.pace);
-    let mut chunks = Vec::with_capacity(walks.len().div_ceil(lanes::WIDTH));
-    while !walks.is_empty() {
-        chunks.push(walks.drain(..walks.len().min(lanes::WIDTH)).collect::<Vec<_>>());
-    }
-    let done: Vec<Vec<_>> = parallel::map_owned(chunks, |chunk| {
-        let (places, together): (Vec<_>, Vec<_>) = chunk.into_iter().unzip();
-        places.into_iter().zip(lanes::walk(together)).collect()
-    });
-    placed.extend(done.into_iter().flatten());
 }
 
 fn start<S: Scalar>(options: &RockingOptions<S>) -> (S, S) {
@@ -311,13 +240,19 @@ pub(crate) fn topples_with(body: &Body<f64>, members: Members, theta: f64, rate:
     solve(body, 1.0, &[0.0], &options).overturned().is_some()
 }
 
+impl RockingOutcome {
+    fn overturned(&self) -> Option<f64> {
+        match *self {
+            Self::Overturned { time } => Some(time),
+            _ => None,
+        }
+    }
+}
+
 impl<S> Rocking<S> {
     /// When |theta| last grew past alpha, if the body overturned (s).
     pub fn overturned(&self) -> Option<f64> {
-        match self.outcome {
-            RockingOutcome::Overturned { time } => Some(time),
-            _ => None,
-        }
+        self.outcome.overturned()
     }
 
     /// When the pivot let go of the ground, if that ended the history (s).
@@ -330,6 +265,18 @@ impl<S> Rocking<S> {
 }
 
 impl Rocking<f64> {
+    /// What it came to.
+    pub fn summary(&self) -> RockingSummary {
+        let last = |samples: &[f64]| samples.last().copied().unwrap_or(0.0);
+        RockingSummary {
+            outcome: self.outcome,
+            samples: self.theta.len(),
+            peak: largest_magnitude(&self.theta),
+            last: (last(&self.theta), last(&self.rate)),
+            impacts: self.impacts.len(),
+        }
+    }
+
     /// The motion of the centre of mass.
     pub fn motion(&self, body: &Body<f64>) -> Motion {
         Motion {

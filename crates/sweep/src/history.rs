@@ -13,16 +13,15 @@ use dynamics::{
     spring::{Chain, Springs},
 };
 use rocking::{
-    housner::{self, Rocking},
-    motion::{largest_magnitude, samples_until},
+    housner::{self, Rocking, RockingSummary},
+    motion::samples_until,
     structure::Body,
 };
 use strong_motion::Record;
 use validation::{ComparisonObserver, push};
 
-/// Cells that are taken at a time: of Housner's as many as go in lock-step; of finite elements
-/// enough to fill the lanes again where a history ends early.
-const LOCK_STEP: usize = 16;
+/// Cells that are taken at a time: enough to fill the lanes again where a history ends early.
+const LOCK_STEP: usize = 256;
 const SIDE_BY_SIDE: usize = 64;
 
 /// The rows of a range of cells, in their order. `done` is told how many more are through.
@@ -54,6 +53,9 @@ pub(crate) fn rows(
     });
     Ok(rows.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
 }
+
+/// What finite elements answer, and their NRMSE against Housner's history.
+type AnswerOnSprings = (CellAnswer, Option<f64>);
 
 /// A ground motion and its peaks, unscaled.
 struct UnscaledGround {
@@ -97,21 +99,34 @@ impl UnscaledGround {
                 ..Default::default()
             })
             .collect();
-        let rigid = housner::solve_lanes(&bodies, self.record.dt, &self.record.accel, &options);
-        let fem = springs.map(|springs| {
-            let wanted = cells.iter().zip(&scales).zip(&rigid).map(|((cell, &scale), rigid)| {
-                WantedHistory {
-                    subject: &plan.subjects[cell.subject],
-                    springs: springs.of(cell.subject, cell.restitution),
-                    scale,
-                    rigid,
-                }
+        let (dt, accel) = (self.record.dt, &self.record.accel);
+        let Some(springs) = springs else {
+            let rigid = housner::summaries(&bodies, dt, accel, &options);
+            return self.rows_of(plan, (cells, &scales), (&rigid, None));
+        };
+        let rigid = housner::solve_lanes(&bodies, dt, accel, &options);
+        let wanted =
+            cells.iter().zip(&scales).zip(&rigid).map(|((cell, &scale), rigid)| WantedHistory {
+                subject: &plan.subjects[cell.subject],
+                springs: springs.of(cell.subject, cell.restitution),
+                scale,
+                rigid,
             });
-            elements(&wanted.collect::<Vec<_>>(), &self.record)
-        });
+        let fem = elements(&wanted.collect::<Vec<_>>(), &self.record);
+        let rigid: Vec<RockingSummary> = rigid.iter().map(Rocking::summary).collect();
+        self.rows_of(plan, (cells, &scales), (&rigid, Some(&fem)))
+    }
+
+    /// Rows of cells and their scales, of what Housner and finite elements say of them.
+    fn rows_of(
+        &self,
+        plan: &Plan,
+        (cells, scales): (&[Cell], &[f64]),
+        (rigid, fem): (&[RockingSummary], Option<&[AnswerOnSprings]>),
+    ) -> Vec<HistoryRow> {
         let row = |(i, cell): (usize, &Cell)| {
             let subject = &plan.subjects[cell.subject];
-            let (fem, nrmse) = fem.as_ref().map(|fem| fem[i]).unzip();
+            let (fem, nrmse) = fem.map(|fem| fem[i]).unzip();
             let nrmse = nrmse.flatten().filter(|_| plan.model.housner());
             HistoryRow {
                 cell: cell.index,
@@ -142,7 +157,7 @@ fn ratio(subject: &Subject, peak: f64, outcome: CellOutcome) -> Option<f64> {
     }
 }
 
-fn of_housner(subject: &Subject, rocking: &Rocking<f64>) -> CellAnswer {
+fn of_housner(subject: &Subject, rocking: &RockingSummary) -> CellAnswer {
     let outcome = match rocking.outcome {
         housner::RockingOutcome::NeverMoved => CellOutcome::NeverLifted,
         housner::RockingOutcome::Rocked => CellOutcome::Rocked,
@@ -152,11 +167,10 @@ fn of_housner(subject: &Subject, rocking: &Rocking<f64>) -> CellAnswer {
             CellOutcome::Failed
         }
     };
-    let peak = largest_magnitude(&rocking.theta);
     CellAnswer {
         outcome,
-        peak: ratio(subject, peak, outcome),
-        impacts: Some(rocking.impacts.len()),
+        peak: ratio(subject, rocking.peak, outcome),
+        impacts: Some(rocking.impacts),
         overturned_s: rocking.overturned(),
     }
 }
@@ -171,11 +185,7 @@ pub(super) struct WantedHistory<'a> {
 
 impl WantedHistory<'_> {
     /// What to say of a history, and its NRMSE against Housner's.
-    fn answer(
-        &self,
-        stream: &ComparisonObserver,
-        finish: &fem::Finish,
-    ) -> (CellAnswer, Option<f64>) {
+    fn answer(&self, stream: &ComparisonObserver, finish: &fem::Finish) -> AnswerOnSprings {
         let outcome = match finish.outcome {
             fem::HistoryOutcome::Overturned { .. } | fem::HistoryOutcome::Stopped { .. } => {
                 CellOutcome::Overturned
@@ -205,10 +215,7 @@ impl WantedHistory<'_> {
 
 /// Finite element histories on a record, streamed. The one place where histories on springs are
 /// computed.
-pub(super) fn elements(
-    wanted: &[WantedHistory<'_>],
-    record: &Record,
-) -> Vec<(CellAnswer, Option<f64>)> {
+pub(super) fn elements(wanted: &[WantedHistory<'_>], record: &Record) -> Vec<AnswerOnSprings> {
     let scaled =
         |samples: &[f64], scale: f64| -> Vec<f64> { samples.iter().map(|a| a * scale).collect() };
     let grounds: Vec<(Vec<f64>, Vec<f64>)> = wanted
@@ -237,6 +244,7 @@ mod tests {
     use super::*;
     use crate::spec::SweepSource;
     use rocking::members::{Damper, Members, Tendon};
+    use rocking::motion::largest_magnitude;
 
     const FRAME: &str =
         "[[structure]]\nkind = 'aframe'\nheight_m = 8.9\nwidth_m = 2.1\nmass_kg = 120e3\n";

@@ -26,7 +26,7 @@ use super::{
     springs::SpringsTable,
 };
 use rocking::{
-    housner::{self, Rocking},
+    housner::{self, RockingSummary},
     structure::Body,
 };
 use strong_motion::{Record, Source};
@@ -79,8 +79,6 @@ impl OverturningFate {
 /// pulse are off by 1e-5 anyway; on springs.
 const WIDTH: f64 = 1e-7;
 const WIDTH_FEM: f64 = 1e-4;
-/// Amplitudes that go in lock-step.
-const TOGETHER: usize = 16;
 
 /// The spectra of a range of cells, in their order.
 ///
@@ -216,27 +214,21 @@ impl LonePulse<'_> {
             restitution: Some(self.e),
             ..Default::default()
         };
-        let solve = |chunk: &[f64]| {
-            let options: Vec<housner::RockingOptions<f64>> = chunk.iter().map(options).collect();
-            match &options[..] {
-                [one] => vec![housner::solve(self.body, self.dt, self.accel, one)],
-                all => {
-                    housner::solve_lanes(std::slice::from_ref(self.body), self.dt, self.accel, all)
-                }
-            }
-        };
-        let rocked: Vec<Vec<_>> = amplitudes.chunks(TOGETHER).map(solve).collect();
-        rocked.iter().flatten().map(|rocking| self.fate(rocking)).collect()
+        let options: Vec<housner::RockingOptions<f64>> = amplitudes.iter().map(options).collect();
+        housner::summaries(std::slice::from_ref(self.body), self.dt, self.accel, &options)
+            .iter()
+            .map(|rocking| self.fate(rocking))
+            .collect()
     }
 
     /// What becomes of a body whose history is over when the pulse is.
-    fn fate(&self, rocking: &Rocking<f64>) -> OverturningFate {
-        let during = rocking.impacts.len();
-        let (Some(&theta), Some(&rate)) = (rocking.theta.last(), rocking.rate.last()) else {
+    fn fate(&self, rocking: &RockingSummary) -> OverturningFate {
+        let (during, (theta, rate)) = (rocking.impacts, rocking.last);
+        if rocking.samples == 0 {
             return OverturningFate::Stands;
-        };
+        }
         // lying already
-        if rocking.theta.len() < self.accel.len() {
+        if rocking.samples < self.accel.len() {
             return OverturningFate::new(rocking.overturned().is_some(), Some(during));
         }
         let (alpha, p2) = (self.body.alpha(), self.body.p_squared());

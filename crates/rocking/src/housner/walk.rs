@@ -7,13 +7,13 @@
 //! `V`: whether the ground moves vertically, too. Without it nothing is computed of what that asks
 //! for.
 
-use std::f64::consts::FRAC_PI_2;
+use std::{f64::consts::FRAC_PI_2, mem};
 
 use super::series::{
     LEAST, LONG, SHORT, SMALL, StepGround, StepStart, change, coefficients, end_slope, is_plain,
     pulls, real_parts, turned,
 };
-use super::{Rocking, RockingOutcome, contact, rest, restraint::Restraint};
+use super::{Rocking, RockingOutcome, contact, rest, restraint::Restraint, samples::WalkSamples};
 use crate::scalar::{Scalar, real};
 
 /// Sine and cosine are carried from step to step by a rotation, and taken anew after this many
@@ -99,7 +99,9 @@ pub(crate) struct Sample<S> {
 pub(crate) struct Walk<'a, S, const V: bool> {
     pub set: Setting<'a, S>,
     pub state: WalkState<S>,
+    /// Events and outcome; its samples stand in `samples` until the end.
     pub out: Rocking<S>,
+    pub samples: WalkSamples<S>,
     /// p^2 dt^2.
     pub q: S,
     pub pace: Pace,
@@ -108,38 +110,12 @@ pub(crate) struct Walk<'a, S, const V: bool> {
     pub quiet: f64,
 }
 
-/// Walk from the given lean and rate at t = 0 to the last sample.
-pub(crate) fn walk<S: Scalar, const V: bool>(set: Setting<S>, theta: S, rate: S) -> Rocking<S> {
-    let n = set.accel.len();
-    // a step of the bare body's series does not take it
-    let restrained = set.restraint.is_some();
-    let mut walk = Walk::<S, V>::new(set, theta, rate);
-    let mut i = 0;
-    let mut a0 = walk.ground(0);
-    while walk.arrive(i) {
-        if !walk.state.rocking {
-            i = walk.lie(i);
-            a0 = walk.ground(i);
-        }
-        if i + 1 >= n {
-            break;
-        }
-        let a1 = walk.ground(i + 1);
-        if !walk.advance(i, a0, a1, restrained) {
-            break;
-        }
-        a0 = a1;
-        i += 1;
-    }
-    walk.end()
-}
-
 impl<'a, S: Scalar, const V: bool> Walk<'a, S, V> {
-    pub(crate) fn new(set: Setting<'a, S>, theta: S, rate: S) -> Self {
-        let n = set.accel.len();
+    /// From the given lean and rate at t = 0.
+    pub(crate) fn new(set: Setting<'a, S>, (theta, rate): (S, S), samples: WalkSamples<S>) -> Self {
         let out = Rocking {
-            theta: Vec::with_capacity(n),
-            rate: Vec::with_capacity(n),
+            theta: Vec::new(),
+            rate: Vec::new(),
             impacts: Vec::with_capacity(32),
             uplifts: Vec::new(),
             outcome: RockingOutcome::NeverMoved,
@@ -152,7 +128,32 @@ impl<'a, S: Scalar, const V: bool> Walk<'a, S, V> {
             // those whose steps an interval takes
             Some(restraint) => Pace::of(q.re() + restraint.growth(set.dt)).max(Pace::Walk),
         };
-        Self { set, state, out, q, pace, quiet }
+        Self { set, state, out, samples, q, pace, quiet }
+    }
+
+    /// Walk to the last sample.
+    pub(crate) fn go_to_end(mut self) -> Self {
+        let n = self.set.accel.len();
+        // a step of the bare body's series does not take it
+        let restrained = self.set.restraint.is_some();
+        let mut i = 0;
+        let mut a0 = self.ground(0);
+        while self.arrive(i) {
+            if !self.state.rocking {
+                i = self.lie(i);
+                a0 = self.ground(i);
+            }
+            if i + 1 >= n {
+                break;
+            }
+            let a1 = self.ground(i + 1);
+            if !self.advance(i, a0, a1, restrained) {
+                break;
+            }
+            a0 = a1;
+            i += 1;
+        }
+        self
     }
 
     /// The ground at sample i; at rest beyond the record.
@@ -163,15 +164,14 @@ impl<'a, S: Scalar, const V: bool> Walk<'a, S, V> {
 
     /// Whether the body does not lie flat, and its motion is finite.
     #[inline(always)]
-    pub(crate) fn is_up(&self) -> bool {
+    fn is_up(&self) -> bool {
         self.state.at.w.re() < FRAC_PI_2 && self.state.at.rate.re().is_finite()
     }
 
-    /// Add a sample to the history.
+    /// Whether it rocks, and its history goes on.
     #[inline(always)]
-    pub(crate) fn note(&mut self, theta: S, rate: S) {
-        self.out.theta.push(theta);
-        self.out.rate.push(rate);
+    pub(crate) fn rocks(&self) -> bool {
+        self.state.rocking && self.is_up()
     }
 
     /// Note the lean at sample i; false if the history ends before it.
@@ -193,7 +193,7 @@ impl<'a, S: Scalar, const V: bool> Walk<'a, S, V> {
         }
         // not -0.0 at rest
         let side: S = real(if self.state.rocking { self.state.side } else { 0.0 });
-        self.note(at.w * side, at.rate * side);
+        self.samples.push(at.w * side, at.rate * side);
         true
     }
 
@@ -206,8 +206,7 @@ impl<'a, S: Scalar, const V: bool> Walk<'a, S, V> {
             return i;
         }
         let still = (i + 1..accel.len()).take_while(|&i| self.is_quiet(i)).count();
-        self.out.theta.resize(i + still + 1, S::zero());
-        self.out.rate.resize(i + still + 1, S::zero());
+        self.samples.rest(still);
         i + still
     }
 
@@ -254,7 +253,8 @@ impl<'a, S: Scalar, const V: bool> Walk<'a, S, V> {
 
     /// The history, its outcome told from its end unless something cut it.
     pub(crate) fn end(mut self) -> Rocking<S> {
-        let Self { set, state, out, .. } = &mut self;
+        let Self { set, state, out, samples, .. } = &mut self;
+        (out.theta, out.rate) = (mem::take(&mut samples.theta), mem::take(&mut samples.rate));
         if out.outcome == RockingOutcome::NeverMoved {
             if state.rocking && set.falls(&state.at) {
                 out.outcome = RockingOutcome::Overturned { time: state.passed };
