@@ -94,12 +94,22 @@ pub(crate) fn quantile(share: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// d ln P/dz of an outcome: of one that exceeds phi/Phi, of one that does not -phi/(1 - Phi).
-pub(crate) fn score(z: f64, exceeds: bool) -> f64 {
-    let side = if exceeds { 1.0 } else { -1.0 };
-    let tail = phi(side * z);
-    // far in the tail phi/Phi tends to -z
-    if tail > 1e-300 { side * density(z) / tail } else { -z }
+/// Phi(z) and 1 - Phi(z), and d ln P/dz of an outcome: of one that exceeds phi/Phi, of one that
+/// does not -phi/(1 - Phi).
+pub(crate) struct Outcomes {
+    pub over: f64,
+    pub under: f64,
+    pub score_over: f64,
+    pub score_under: f64,
+}
+
+impl Outcomes {
+    pub(crate) fn at(z: f64) -> Self {
+        let (over, under, density) = (phi(z), phi(-z), density(z));
+        // far in the tail phi/Phi tends to -z
+        let score = |side: f64, tail: f64| if tail > 1e-300 { side * density / tail } else { -z };
+        Self { over, under, score_over: score(1.0, over), score_under: score(-1.0, under) }
+    }
 }
 
 impl LognormalFit {
@@ -222,17 +232,17 @@ fn sums(groups: &[Group], centre: f64, a: f64, b: f64) -> ([f64; 2], SymmetricMa
         let x = group.ln_x - centre;
         let z = a + b * x;
         let (n, k) = (group.n as f64, group.k as f64);
-        let (up, down) = (score(z, true), score(z, false));
-        let u = k * up + (n - k) * down;
+        let at = Outcomes::at(z);
+        let u = k * at.score_over + (n - k) * at.score_under;
         // phi^2/(P (1 - P))
-        let weight = -n * up * down;
+        let weight = -n * at.score_over * at.score_under;
         score_sum[0] += u;
         score_sum[1] += u * x;
         information[0] += weight;
         information[1] += weight * x;
         information[2] += weight * x * x;
         let ln = |p: f64| p.max(f64::MIN_POSITIVE).ln();
-        likelihood += k * ln(phi(z)) + (n - k) * ln(phi(-z));
+        likelihood += k * ln(at.over) + (n - k) * ln(at.under);
     }
     (score_sum, information, likelihood)
 }
@@ -302,7 +312,8 @@ mod tests {
         let mut scores = [0.0; 3];
         for capacity in &capacities {
             let u = levels.iter().fold([0.0; 2], |[a, b], ln_x| {
-                let u = score(fit.a + fit.b * ln_x, capacity < ln_x);
+                let at = Outcomes::at(fit.a + fit.b * ln_x);
+                let u = if capacity < ln_x { at.score_over } else { at.score_under };
                 [a + u, b + u * ln_x]
             });
             scores = [scores[0] + u[0] * u[0], scores[1] + u[0] * u[1], scores[2] + u[1] * u[1]];

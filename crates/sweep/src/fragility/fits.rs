@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     SweepError,
-    lognormal::{Group, LognormalFit, Probit, SymmetricMatrix, score},
+    lognormal::{Group, LognormalFit, Outcomes, Probit, SymmetricMatrix},
     parts::SweepParts,
     reduce,
 };
@@ -57,23 +57,22 @@ pub(super) fn bounds(
     let fitted: Vec<Option<Probit>> = rows.iter().map(|row| row.probit().copied()).collect();
     // of each fit and bin: the scores of an outcome that exceeds and of one that does not, times 1
     // and ln x
-    let table: Vec<HashMap<i32, Vec<[f64; 3]>>> = (0..members.len() * MEASURES.len())
-        .map(|at| {
+    let table: Vec<HashMap<i32, Vec<[f64; 3]>>> =
+        parallel::map_range(0..members.len() * MEASURES.len(), |at| {
             let fits = &fitted[at * states.len()..(at + 1) * states.len()];
             let bins = &members[at / MEASURES.len()].bins[at % MEASURES.len()];
             let scores = |bin: &Bin| -> Vec<[f64; 3]> {
                 let ln_x = bin.sum_ln / bin.n as f64;
                 let of = |fit: &Option<Probit>| {
                     fit.map_or([0.0; 3], |fit| {
-                        let z = fit.a + fit.b * ln_x;
-                        [score(z, true), score(z, false), ln_x]
+                        let at = Outcomes::at(fit.a + fit.b * ln_x);
+                        [at.score_over, at.score_under, ln_x]
                     })
                 };
                 fits.iter().map(of).collect()
             };
             bins.iter().map(|(key, bin)| (*key, scores(bin))).collect()
-        })
-        .collect();
+        });
     let (mut sums, mut current) = (vec![[0.0; 3]; rows.len()], vec![[0.0; 2]; rows.len()]);
     let flush = |current: &mut [[f64; 2]], sums: &mut [SymmetricMatrix]| {
         for (u, sum) in current.iter_mut().zip(sums) {
