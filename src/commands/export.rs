@@ -7,7 +7,6 @@ use clap::Args;
 use super::{CommandError, common::RecordOptions, terminal};
 use decks::{
     ACCURACY, CornerProgram, DeckFormat, ExportError, SteppedDeck, Stepping, deck_of, stepped_deck,
-    with_inertia,
 };
 use frames::fem::ElasticAnalysis;
 use parameters::{Parameters, elastic::ElasticParameters, program::ProgramRow};
@@ -223,8 +222,8 @@ pub(super) fn check_accuracy(accuracy: f64) -> Result<(), CommandError> {
     Err(CommandError::option("accuracy", format_args!("{accuracy}"), remedy))
 }
 
-/// The model that decks hold, the part of its record that is used, and what that is of: the record
-/// of the file unless given.
+/// Springs and structure, the part of the record that is used, and what that is of: the record of
+/// the file unless given.
 pub(super) fn read(
     file: &Path,
     options: &RecordOptions,
@@ -234,11 +233,10 @@ pub(super) fn read(
 
 /// The same of parameters that were read from a file.
 fn with_record(
-    mut parameters: Parameters,
+    parameters: Parameters,
     file: &Path,
     options: &RecordOptions,
 ) -> Result<(Parameters, Record, Excitation), CommandError> {
-    parameters.structure = with_inertia(&parameters.structure, &parameters.members());
     let excitation = options.checked_excitation(|| parameters.excitation(file))?;
     Ok((parameters, excitation.used()?, excitation))
 }

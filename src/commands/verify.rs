@@ -1,6 +1,7 @@
 //! `tune verify`: the deck run in OpenSees, beside our own history and Housner's.
 
 mod elastic;
+mod notes;
 
 use std::{
     fmt::{Debug, Write as _},
@@ -103,16 +104,18 @@ fn said(excitation: &Excitation, record: &Record, result: &Verification) -> Stri
     let last = (result.ours.len() - 1) as f64 * result.dt;
     let peaks = peaks_table(&title(excitation, record, last), &result.peaks);
     let mut errors = terminal::table(["error of the history (NRMSE)", "u", "v", "theta"]);
-    for (name, a) in [
-        ("OpenSees against tune simulate", result.opensees_against_ours),
-        ("OpenSees against Housner", result.opensees_against_housner),
-        ("tune simulate against Housner", result.ours_against_housner),
+    let housner = notes::counted(&result.housner, &result.reach);
+    let least = |k: usize| result.peaks.get(k).map_or(0.0, |peak| peak.least);
+    for (name, a, of) in [
+        ("OpenSees against tune simulate", result.opensees_against_ours, &result.ours),
+        ("OpenSees against Housner", result.opensees_against_housner, &housner),
+        ("tune simulate against Housner", result.ours_against_housner, &housner),
     ] {
         errors.add_row([
             name.to_string(),
-            format!("{:.2e}", a.u),
-            format!("{:.2e}", a.v),
-            format!("{:.2e}", a.theta),
+            notes::error(a.u, &of.u, least(0)),
+            notes::error(a.v, &of.v, least(2)),
+            notes::error(a.theta, &of.theta, least(3)),
         ]);
     }
     let [ours, opensees] = result.swings;
@@ -121,7 +124,7 @@ fn said(excitation: &Excitation, record: &Record, result: &Verification) -> Stri
     let _ =
         writeln!(out, "swings from foot to foot: {ours} of tune simulate, {opensees} of OpenSees");
     let _ = writeln!(out, "OpenSees took {:.1} s and {} steps", result.seconds, result.steps);
-    out + &judged(result)
+    out + &notes::notes(&result.reach, result.dt) + &judged(result)
 }
 
 /// A record and its scale.
@@ -140,8 +143,8 @@ fn title(excitation: &Excitation, record: &Record, seconds: f64) -> String {
     }
 }
 
-/// What the error is told beside of a body that hardly moves; the table's is beside its motion.
-const OF_SIZE: &str = ", over a thousandth of half the width (above, over the motion itself)";
+/// What the error is told beside of a body that hardly moves.
+const OF_SIZE: &str = ", over a thousandth of half the width, since the body hardly moves";
 
 /// What a verification says nothing of.
 const FORCES: &str =
@@ -166,6 +169,7 @@ fn judged(result: &Verification) -> String {
     let verdict = &result.verdict;
     let (agrees, whether) =
         if verdict.within { ("AGREES", "within") } else { ("DOES NOT AGREE", "NOT within") };
+    let agrees = agrees.to_string() + &notes::up_to(verdict.samples, &result.reach, result.dt);
     let mut out = String::new();
     let until = verdict.until.unwrap_or_default();
     let _ = match verdict.end {

@@ -2,6 +2,7 @@
 
 mod peaks;
 mod program;
+mod reach;
 mod verdict;
 
 use std::{
@@ -19,6 +20,7 @@ use parameters::{
 };
 pub use peaks::{ComparedPeak, swings};
 pub use program::Program;
+pub use reach::{AddedInertia, ComparedReach, OwnEnd};
 use rocking::{
     housner,
     motion::{Motion, nrmse},
@@ -86,14 +88,16 @@ pub struct Verification {
     pub swings: [usize; 2],
     /// The deck's error beside our finite elements.
     pub opensees_against_ours: Agreement,
-    /// The deck's error beside Housner.
+    /// The deck's error beside Housner, up to where his history counts.
     pub opensees_against_housner: Agreement,
-    /// Our finite elements' error beside Housner.
+    /// Our finite elements' error beside Housner, up to there.
     pub ours_against_housner: Agreement,
     /// Whether the deck found its peaks within 1 % of ours.
     pub within_one_percent: bool,
     /// Whether OpenSees is within its limit, and how it was judged.
     pub verdict: OpenSeesVerdict,
+    /// Up to where histories were compared, and whose body.
+    pub reach: ComparedReach,
     /// The same in finer steps, where it is not within its limit and rocks.
     pub finer: Option<FinerSteps>,
     /// What the deck printed.
@@ -173,6 +177,7 @@ pub fn verify(
     progress: &dyn Fn(usize, usize),
 ) -> Result<Verification, VerifyError> {
     // the same body in all three models
+    let given = parameters.structure;
     let parameters = &Parameters {
         structure: with_inertia(&parameters.structure, &parameters.members()),
         ..parameters.clone()
@@ -194,6 +199,9 @@ pub fn verify(
     let run = deck.run(&expected.with_accuracy(accuracy))?;
     let ours = history.motion.first(expected.samples);
     let housner = housner.first(expected.samples);
+    let reach = ComparedReach::new(parameters, record, &history, &rocking, expected.samples)
+        .beside(&given, parameters, record, &history);
+    let counts = housner.first(reach.housner);
     let verdict = OpenSeesVerdict::new(&run.motion, &ours, &body, record.dt, foretold);
     let lifts = !history.landings.is_empty() || history.airborne > 0.0;
     let verdict = match parameters.members().friction.filter(|_| !lifts) {
@@ -219,8 +227,9 @@ pub fn verify(
         swings: [&ours, &run.motion]
             .map(|motion| swings(&motion.theta, body.half_width.atan2(body.height))),
         opensees_against_ours: Agreement::new(&run.motion, &ours),
-        opensees_against_housner: Agreement::new(&run.motion, &housner),
-        ours_against_housner: Agreement::new(&ours, &housner),
+        opensees_against_housner: Agreement::new(&run.motion, &counts),
+        ours_against_housner: Agreement::new(&ours, &counts),
+        reach,
         finer,
         opensees: run.motion,
         ours,
