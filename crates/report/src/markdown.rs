@@ -1,8 +1,11 @@
 //! A run as Markdown: parameters.md, and what `--verbose` prints.
 
+mod corners;
+
+use self::corners::{at_corners, members, on_one_corner};
 use super::{FiledParameters, Run, Section, Table, peak_table, sentence};
 use files::message::{percent, quantity, significant};
-use results::{DesignForce, DesignForces, ForceName, OtherForces};
+use results::{DesignForce, ForceName, OtherForces};
 
 /// What the mark "not predictable" of a force means.
 const ONE_OF_MANY: &str = " Not predictable: the motion up to that time is one of many alike, \
@@ -108,18 +111,6 @@ fn section(part: &Section) -> String {
     out
 }
 
-/// What bounds the moment of a column on a footing, for the check that an engineer makes first.
-fn on_one_corner(forces: &DesignForces) -> Option<String> {
-    (forces.column_base_moment_nm.is_some() && forces.sole_vertical_n.is_some()).then(|| {
-        "On one corner the ground bears a moment of N b about the middle of a footing, 2b wide, N \
-            the vertical force under it at that time. N has the footing's weight in it and, in a \
-            landing, more than all of the weight; the footing's inertia and the shear times its \
-            height come between. So the moment at a column's base can be above W b, and above the \
-            column's own axial force times b."
-            .into()
-    })
-}
-
 /// The design forces with what is told of them; none without a record.
 pub fn forces_to_design_with(run: &Run) -> Option<Section> {
     let (forces, words) = (run.design_forces.as_ref()?, run.force_words());
@@ -164,7 +155,7 @@ pub fn forces_to_design_with(run: &Run) -> Option<Section> {
             if run.has_doubted_forces() { ONE_OF_MANY } else { "" }
         )],
         table: Some(Table::new(head).with(forces.all().map(row))),
-        notes: on_one_corner(forces).into_iter().collect(),
+        notes: on_one_corner(forces).into_iter().chain(at_corners(members(run), forces)).collect(),
         ..Section::default()
     })
 }
@@ -252,6 +243,11 @@ fn together(run: &Run) -> Option<Section> {
         true => {
             "At the time of each largest force, below the same frequency; means over parts of the \
                 record's time step."
+        }
+        false if members(run) => {
+            "At the time of each largest force: near landings by Housner's equation with the \
+                members, between them on springs, which add nothing where one foot presses; of a \
+                body that stands by statics."
         }
         false => "At the time of each largest force, of Housner's body.",
     };

@@ -253,6 +253,9 @@ pub enum Finding {
     /// Largest forces that the structure bears before it moves, with what they are made of.
     ForcesAtRest {
         forces: Vec<ForceName>,
+        /// By a tendon, whose pretension is in them.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        tied: bool,
     },
     /// What was cut, after how many stiffnesses, and the error that was reached of what was asked
     /// for.

@@ -44,6 +44,9 @@ pub struct DesignForce {
     /// below the same frequency.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub together: Option<ForcesTogether>,
+    /// Of a force at one corner: what the ground gives that corner at that time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub corner: Option<CornerForce>,
     /// Where the shear or the tension of an elastic structure's column is so large: height above
     /// its base, along it (m); 0 at the base.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -68,6 +71,15 @@ pub struct DesignForce {
     /// Whether the motion can be foretold up to `time_s`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub predictable: Option<bool>,
+}
+
+/// What the ground gives one corner of a rigid body at one time.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CornerForce {
+    /// Positive to the right (N).
+    pub horizontal_n: f64,
+    /// Positive where the corner presses (N).
+    pub vertical_n: f64,
 }
 
 impl DesignForce {
@@ -140,12 +152,22 @@ pub struct DesignForces {
     /// Moment of a leg at the apex of an A-frame.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub apex_moment_nm: Option<DesignForce>,
-    /// Shear at the sole, footing included.
+    /// Shear at the sole, footing included; of a rigid body what the soles bear, without the
+    /// tendon's pull at its anchor.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sole_shear_n: Option<DesignForce>,
     /// Vertical force at the sole, footing included, upwards.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sole_vertical_n: Option<DesignForce>,
+    /// Vertical force of the ground on one corner of a rigid body.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub corner_vertical_n: Option<DesignForce>,
+    /// Horizontal force of the ground on one corner of a rigid body.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub corner_horizontal_n: Option<DesignForce>,
+    /// Horizontal force of a rigid body's tendon at its anchor.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub anchor_horizontal_n: Option<DesignForce>,
     /// Of the tendon that pulls most.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tendon_n: Option<DesignForce>,
@@ -185,6 +207,9 @@ impl DesignForces {
             &mut self.apex_moment_nm,
             &mut self.sole_shear_n,
             &mut self.sole_vertical_n,
+            &mut self.corner_vertical_n,
+            &mut self.corner_horizontal_n,
+            &mut self.anchor_horizontal_n,
             &mut self.tendon_n,
             &mut self.damper_n,
         ]
@@ -203,6 +228,9 @@ impl DesignForces {
             (ForceName::ApexMoment, self.apex_moment_nm),
             (ForceName::SoleShear, self.sole_shear_n),
             (ForceName::SoleVertical, self.sole_vertical_n),
+            (ForceName::CornerVertical, self.corner_vertical_n),
+            (ForceName::CornerHorizontal, self.corner_horizontal_n),
+            (ForceName::AnchorHorizontal, self.anchor_horizontal_n),
             (ForceName::Tendon, self.tendon_n),
             (ForceName::Damper, self.damper_n),
         ]
@@ -245,7 +273,8 @@ impl DesignForces {
     pub fn at_rest(&self) -> Option<Finding> {
         let forces: Vec<ForceName> =
             self.all().filter(|(_, force)| force.is_at_rest()).map(|(name, _)| name).collect();
-        (!forces.is_empty()).then_some(Finding::ForcesAtRest { forces })
+        (!forces.is_empty())
+            .then_some(Finding::ForcesAtRest { forces, tied: self.tendon_n.is_some() })
     }
 
     /// A finding for every force that does not hold.

@@ -9,7 +9,7 @@ pub use findings::{
     DeckEnd, Ending, FiledFinding, Finding, FindingModel, ForceName, NotDone, NotToBeUsed,
     PeakChange, ProgramAdvice, ProgramFault, Weight, feet_end,
 };
-pub use forces::{DesignForce, DesignForces};
+pub use forces::{CornerForce, DesignForce, DesignForces};
 pub use frames::design_forces::{ForcesTogether, MOST_CHANGE, OtherForces};
 pub use peaks::{ForetoldPeaks, PartsOfTop, PeakPair, PeakTimes, Peaks};
 

@@ -18,10 +18,17 @@ pub enum ForceName {
     AxialTension,
     /// Where legs meet (N m).
     ApexMoment,
-    /// Horizontal force of the ground on all corners: footings' inertia is in it (N).
+    /// Horizontal force of the ground on all corners: footings' inertia is in it, a rigid body's
+    /// tendon at its anchor is not (N).
     SoleShear,
     /// Vertical force of the ground on all corners, upwards (N).
     SoleVertical,
+    /// Vertical force of the ground on one corner of a rigid body, upwards (N).
+    CornerVertical,
+    /// Horizontal force of the ground on one corner of a rigid body (N).
+    CornerHorizontal,
+    /// Horizontal force of a rigid body's tendon at its anchor, on the body (N).
+    AnchorHorizontal,
     /// Of the tendon that pulls most (N).
     Tendon,
     /// Of the damper with the largest force on the structure, upwards (N).
@@ -53,6 +60,9 @@ impl ForceName {
             Self::ApexMoment => "moment at the apex",
             Self::SoleShear => "shear at the sole, footing included",
             Self::SoleVertical => "vertical force at the sole, footing included",
+            Self::CornerVertical => "vertical force at one corner",
+            Self::CornerHorizontal => "horizontal force at one corner",
+            Self::AnchorHorizontal => "horizontal pull at the tendon's anchor",
             Self::Tendon => "tendon force",
             Self::Damper => "damper force",
         }

@@ -16,6 +16,8 @@ use rocking::{
 
 /// The tendon's column of a row of [`Demands`].
 const TENDON: usize = 7;
+/// The column of what the ground and the tendon's anchor give across.
+const SHEAR: usize = 0;
 /// The columns of the legs' axial forces.
 const AXIAL: [usize; 2] = [1, 4];
 
@@ -48,6 +50,7 @@ pub(super) fn member_forces(
     let legs = damper.filter(|_| kind == Kind::AFrame);
     DesignForces {
         tendon_n: own.members.tendon.and_then(|_| force(&[TENDON], column_of)),
+        anchor_horizontal_n: own.members.tendon.and_then(|_| force(&[SHEAR], at_the_anchor)),
         damper_n: damper.and_then(|_| force(&DAMPERS, column_of)),
         axial_tension_n: legs.and_then(|_| force(&AXIAL, tension_in_the_air)),
         ..DesignForces::default()
@@ -66,4 +69,11 @@ fn tension_in_the_air(demands: &Demands, column: usize, samples: usize) -> Vec<f
     let hangs = |feet: &[[f64; 2]; 2]| feet[leg][1] <= 0.0 && feet[1 - leg][1] > 0.0;
     let all = demands.at.iter().zip(&demands.feet).take(samples);
     all.map(|(row, feet)| if hangs(feet) { row[column].max(0.0) } else { 0.0 }).collect()
+}
+
+/// The horizontal force of the tendon on the body at the first samples: what of a row's shear the
+/// soles do not give.
+fn at_the_anchor(demands: &Demands, column: usize, samples: usize) -> Vec<f64> {
+    let all = demands.at.iter().zip(&demands.feet).take(samples);
+    all.map(|(row, [left, right])| row[column] - left[0] - right[0]).collect()
 }

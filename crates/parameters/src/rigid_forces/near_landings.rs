@@ -41,7 +41,10 @@ pub(super) fn near_landings(
                 true => [[0.0, demands.at[i][DAMPERS[0]]], pivot],
                 false => [pivot, [0.0, demands.at[i][DAMPERS[1]]]],
             };
-            return (of.1 > 0.0).then(|| (i, GroundRow::new(kind, body, theta[i], feet)));
+            // a corner's bearing has the ground's force alone
+            let corners = if side > 0.0 { [[0.0; 2], pivot] } else { [pivot, [0.0; 2]] };
+            let row = GroundRow { corners, ..GroundRow::new(kind, body, theta[i], feet) };
+            return (of.1 > 0.0).then_some((i, row));
         }
         if members.is_some() {
             let shaken = !record.up().is_empty() && ground.1 > 0.0;

@@ -31,6 +31,7 @@ pub fn design_forces(structure: &ElasticStructure, of: &StructureForces) -> Desi
             fixed: force.fixed.map(|peak| peak.value).filter(|value| *value != 0.0),
             rigid: force.rigid.map(|peak| peak.value),
             at_rest: None,
+            corner: None,
             springs_err: None,
             together: force.together.map(|with| ForcesTogether {
                 apex_moment_nm: leg.map(|leg| with.column_shear_n * leg),
@@ -66,5 +67,6 @@ pub fn design_forces(structure: &ElasticStructure, of: &StructureForces) -> Desi
         sole_vertical_n: force(ForceName::SoleVertical),
         tendon_n: force(ForceName::Tendon),
         damper_n: force(ForceName::Damper),
+        ..DesignForces::default()
     }
 }

@@ -212,7 +212,10 @@ pub(crate) fn finite_element_forces(kind: Kind, columns: &[(&str, &Demands)]) ->
             0.0 => "-".to_string(),
             value => format!("{} at {} s", quantity(value, unit), significant(peak.time, 4)),
         };
-        let mut row = vec![what.replace('_', " ")];
+        // a tendon's anchor is in it
+        let tied = k == 0 && columns.iter().any(|(_, demands)| demands.peaks[7].value != 0.0);
+        let with = if tied { ", with the tendon's anchor" } else { "" };
+        let mut row = vec![what.replace('_', " ") + with];
         row.extend(peaks.iter().map(cell));
         peaks.iter().any(|peak| peak.value != 0.0).then_some(row)
     };

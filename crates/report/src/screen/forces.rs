@@ -42,7 +42,7 @@ pub(super) fn lines(run: &Run, tight: bool) -> Vec<String> {
     let alone = run.peaks.and_then(|pair| pair.reference_ends_s);
     let alone = alone.map(|end| format!("springs alone after {} s", significant(end, 3)));
     let rest = forces.all().any(|(_, force)| force.is_at_rest());
-    let rest = rest.then(|| "own weight: no thrust".to_string());
+    let rest = rest.then(|| format!("{}: no thrust", at_rest(run)));
     let far = forces.all().find_map(|(_, force)| force.springs_err);
     let far = far.map(|err| format!("withheld: peaks on springs err by {}", percent(err)));
     let notes: Vec<String> =
@@ -54,16 +54,14 @@ pub(super) fn lines(run: &Run, tight: bool) -> Vec<String> {
         if head.chars().count() > WIDTH { head.replace(part, "") } else { head }
     });
     let mut lines = wrapped("", &head);
-    // the report has the vertical force, too
-    let mut all: Vec<_> =
-        forces.all().filter(|(name, _)| *name != ForceName::SoleVertical).collect();
+    let mut all: Vec<_> = forces.all().filter(|(name, _)| !in_the_report(*name)).collect();
     all.sort_by(|a, b| order(*a).total_cmp(&order(*b)));
     let withheld: Vec<_> =
         all.extract_if(.., |(_, force)| tight && force.value.is_none()).collect();
     let cells = |told: Told| -> Vec<[String; 2]> {
         let cell = |&(name, force): &(ForceName, DesignForce)| {
             let mark = if Run::doubts(&force) { mark } else { "" };
-            [short(run, name, &force), value(name, &force, mark, told)]
+            [short(run, name, &force), value(name, &force, (mark, told, at_rest(run)))]
         };
         all.iter().map(cell).collect()
     };
@@ -101,6 +99,12 @@ pub(super) fn lines(run: &Run, tight: bool) -> Vec<String> {
     lines
 }
 
+/// Forces of the ground that the report alone tells.
+fn in_the_report(name: ForceName) -> bool {
+    use ForceName::{AnchorHorizontal, CornerHorizontal, CornerVertical, SoleVertical};
+    [SoleVertical, CornerVertical, CornerHorizontal, AnchorHorizontal].contains(&name)
+}
+
 /// What they are the largest of.
 fn which(run: &Run, forces: &DesignForces) -> String {
     match (&run.parameters, forces.below_hz) {
@@ -131,7 +135,9 @@ fn order((name, force): (ForceName, DesignForce)) -> f64 {
         ForceName::ColumnShear => 1.0,
         ForceName::Axial => 2.0,
         ForceName::AxialTension => 3.0,
-        ForceName::SoleShear | ForceName::SoleVertical => 4.0,
+        ForceName::SoleShear => 4.0,
+        ForceName::SoleVertical | ForceName::CornerVertical => 4.5,
+        ForceName::CornerHorizontal | ForceName::AnchorHorizontal => 4.5,
         ForceName::Tendon => 5.0,
         ForceName::Damper => 6.0,
     }
@@ -152,7 +158,7 @@ fn short(run: &Run, name: ForceName, force: &DesignForce) -> String {
 }
 
 /// The magnitude, when, and where; what is withheld lies between what was found.
-fn value(name: ForceName, force: &DesignForce, mark: &str, told: Told) -> String {
+fn value(name: ForceName, force: &DesignForce, (mark, told, rest): (&str, Told, &str)) -> String {
     let newtons = |x: f64| quantity(x.abs(), name.unit());
     let Some(largest) = force.value else {
         let found = force.others.and_then(|others| others.range());
@@ -169,7 +175,7 @@ fn value(name: ForceName, force: &DesignForce, mark: &str, told: Told) -> String
     };
     let when = match force.is_at_rest() {
         _ if told == Told::Value => String::new(),
-        true => ", own weight".to_string(),
+        true => format!(", {rest}"),
         false => format!(" at {} s", significant(force.time_s, 4)),
     };
     let up = force.above_base_m.filter(|above| *above > 0.0 && told == Told::Both);
@@ -183,6 +189,15 @@ fn value(name: ForceName, force: &DesignForce, mark: &str, told: Told) -> String
     let until = force.held.filter(|_| matches!(told, Told::Both | Told::Axial));
     let until = until.map_or(String::new(), |_| held_words(name, force));
     format!("{}{mark}{when}{up}{axial}{until}", newtons(largest))
+}
+
+/// What a structure bears at rest.
+fn at_rest(run: &Run) -> &'static str {
+    let pulled = match &run.parameters {
+        FiledParameters::Rigid(parameters) => parameters.members().tendon.map(|t| t.pretension),
+        FiledParameters::Elastic(_) => None,
+    };
+    if pulled.is_some_and(|n| n > 0.0) { "weight and pretension" } else { "own weight" }
 }
 
 /// Why a force is withheld.
@@ -217,7 +232,16 @@ mod tests {
     #[test]
     fn a_force_that_is_withheld_has_its_reason() {
         let force = DesignForce { change: Some(0.21), ..DesignForce::default() };
-        let told = value(ForceName::ColumnShear, &force, "", Told::Value);
+        let told = value(ForceName::ColumnShear, &force, ("", Told::Value, ""));
         assert_eq!(told, "withheld (varies 21.0 %)");
+    }
+
+    #[test]
+    fn a_force_that_is_largest_at_rest_says_what_it_is_made_of() {
+        let force = DesignForce { at_rest: Some(7.2e5), ..DesignForce::measured(7.2e5, 1.0, None) };
+        let force = DesignForce { value: Some(7.2e5), ..force };
+        let rest = "weight and pretension";
+        let told = value(ForceName::ApexMoment, &force, ("", Told::Time, rest));
+        assert_eq!(told, "720 kN m, weight and pretension");
     }
 }

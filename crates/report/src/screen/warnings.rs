@@ -125,7 +125,7 @@ mod tests {
             predictable: false,
         };
         let left_out = Finding::NearMotionsLeftOut { motions: 1, all: false };
-        let force = Finding::ForcesAtRest { forces: Vec::new() };
+        let force = Finding::ForcesAtRest { forces: Vec::new(), tied: false };
         let all = [sliding, feet, left_out, force].map(|finding| urgency(&finding));
         assert!(all[0] < all[1] && all[1] < all[2] && all[2] <= all[3], "{all:?}");
     }

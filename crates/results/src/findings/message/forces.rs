@@ -69,13 +69,14 @@ impl Finding {
                     significant(*below_hz, 3)
                 )
             }
-            Self::ForcesAtRest { forces } => format!(
-                "{} {} largest at rest: the frame's own weight, with a vertical motion more of it, \
-                    half on each foot and no thrust between them; rocking adds nothing. That feet \
-                    do not thrust is assumed: a tie or friction that holds them bears a thrust, \
-                    and leaves next to no shear and moment in legs at rest",
+            Self::ForcesAtRest { forces, tied } => format!(
+                "{} {} largest at rest: the frame's own weight{}, with a vertical motion more of \
+                    it, half on each foot and no thrust between them; rocking adds nothing. That \
+                    feet do not thrust is assumed: a tie or friction that holds them bears a \
+                    thrust, and leaves next to no shear and moment in legs at rest",
                 listed(forces),
-                if forces.len() == 1 { "is" } else { "are" }
+                if forces.len() == 1 { "is" } else { "are" },
+                if *tied { " and its tendon's pretension" } else { "" }
             ),
             _ => return None,
         })
