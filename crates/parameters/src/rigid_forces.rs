@@ -67,7 +67,7 @@ pub fn design_forces(
         }
     }
     let [shear, moment, axial] = rows.map(Some);
-    let of_members = member_forces(kind, both, softer, (dt, least));
+    let of_members = member_forces(of, both, softer, (dt, least));
     let all = DesignForces {
         column_shear_n: shear,
         axial_n: axial,

@@ -2,7 +2,7 @@
 
 mod corners;
 
-use self::corners::{at_corners, members, on_one_corner};
+use self::corners::{at_corners, member_motions, members, on_one_corner};
 use super::{FiledParameters, Run, Section, Table, peak_table, sentence};
 use files::message::{percent, quantity, significant};
 use results::{DesignForce, ForceName, OtherForces};
@@ -155,7 +155,11 @@ pub fn forces_to_design_with(run: &Run) -> Option<Section> {
             if run.has_doubted_forces() { ONE_OF_MANY } else { "" }
         )],
         table: Some(Table::new(head).with(forces.all().map(row))),
-        notes: on_one_corner(forces).into_iter().chain(at_corners(members(run), forces)).collect(),
+        notes: on_one_corner(forces)
+            .into_iter()
+            .chain(at_corners(members(run), forces))
+            .chain(member_motions(forces))
+            .collect(),
         ..Section::default()
     })
 }

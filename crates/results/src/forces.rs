@@ -4,7 +4,7 @@
 use frames::design_forces::{ForcesTogether, HeldForce, MOST_CHANGE, OtherForces};
 use serde::{Deserialize, Serialize};
 
-use super::{Finding, ForceName, PeakChange};
+use super::{DamperMotion, Finding, ForceName, PeakChange, TendonMotion};
 
 /// Share by which a force exceeds the one at rest at most, if the record adds nothing to it.
 const RECORD_ADDS: f64 = 0.01;
@@ -174,6 +174,12 @@ pub struct DesignForces {
     /// Of the damper with the largest force on the structure, upwards.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damper_n: Option<DesignForce>,
+    /// How far a rigid body's tendon is drawn, where its force holds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tendon_motion: Option<TendonMotion>,
+    /// How a rigid body's dampers move, where their force holds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub damper_motion: Option<DamperMotion>,
 }
 
 impl DesignForces {

@@ -3,7 +3,8 @@
 
 pub mod findings;
 pub mod forces;
-pub mod peaks;
+pub mod member_motion;
+mod peaks;
 
 pub use findings::{
     DeckEnd, Ending, FiledFinding, Finding, FindingModel, ForceName, NotDone, NotToBeUsed,
@@ -11,6 +12,7 @@ pub use findings::{
 };
 pub use forces::{CornerForce, DesignForce, DesignForces};
 pub use frames::design_forces::{ForcesTogether, MOST_CHANGE, OtherForces};
+pub use member_motion::{DamperMotion, TendonMotion};
 pub use peaks::{ForetoldPeaks, PartsOfTop, PeakPair, PeakTimes, Peaks};
 
 /// Up to when a motion can be foretold (s), if that is not all of it.

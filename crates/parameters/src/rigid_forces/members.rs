@@ -8,10 +8,10 @@
 use super::relative;
 use crate::answers::{MemberHistory, ModelComparison};
 use dynamics::fem::{DAMPERS, Demands};
-use results::{DesignForce, DesignForces};
+use results::{DamperMotion, DesignForce, DesignForces, TendonMotion};
 use rocking::{
     motion::{TimedPeak, samples_until},
-    structure::Kind,
+    structure::{Body, Kind},
 };
 
 /// The tendon's column of a row of [`Demands`].
@@ -24,7 +24,7 @@ const AXIAL: [usize; 2] = [1, 4];
 /// Those of a run, in an otherwise empty set; samples are `dt` (s) apart. `softer`: on springs of a
 /// quarter of Omega_n; forces below `least` (N) are none.
 pub(super) fn member_forces(
-    kind: Kind,
+    (kind, body): (Kind, &Body<f64>),
     both: &ModelComparison,
     softer: Option<&MemberHistory>,
     (dt, least): (f64, f64),
@@ -36,7 +36,12 @@ pub(super) fn member_forces(
         let samples = samples_until(of.matched.overturned_fem_s, dt);
         columns
             .iter()
-            .filter_map(|&column| TimedPeak::of(dt, &column_of(&of.demands, column, samples)))
+            .filter_map(|&column| {
+                let found = TimedPeak::of(dt, &column_of(&of.demands, column, samples))?;
+                // of its step, not of the sample after it, where no fall cuts the history
+                let all = of.demands.peaks[column];
+                Some(if all.value == found.value { all } else { found })
+            })
             .reduce(TimedPeak::larger)
             .unwrap_or_default()
     };
@@ -48,10 +53,29 @@ pub(super) fn member_forces(
     };
     let damper = own.members.damper;
     let legs = damper.filter(|_| kind == Kind::AFrame);
+    let tendon_n = own.members.tendon.and_then(|_| force(&[TENDON], column_of));
+    let damper_n = damper.and_then(|_| force(&DAMPERS, column_of));
+    let held = |force: Option<DesignForce>| {
+        let force = force?;
+        Some(TimedPeak { value: force.value?, time: force.time_s })
+    };
+    let rises = || {
+        let samples = samples_until(own.matched.overturned_fem_s, dt);
+        let rise = |theta: &f64| 2.0 * body.half_width * theta.sin().abs();
+        let rises: Vec<f64> = own.history.motion.theta.iter().take(samples).map(rise).collect();
+        TimedPeak::of(dt, &rises)
+    };
     DesignForces {
-        tendon_n: own.members.tendon.and_then(|_| force(&[TENDON], column_of)),
+        tendon_n,
+        damper_n,
+        tendon_motion: own
+            .members
+            .tendon
+            .filter(|tendon| tendon.stiffness > 0.0)
+            .and_then(|tendon| Some(TendonMotion::new(tendon, body.height, held(tendon_n)?))),
+        damper_motion: damper
+            .and_then(|damper| Some(DamperMotion::new(damper, held(damper_n)?, rises()?))),
         anchor_horizontal_n: own.members.tendon.and_then(|_| force(&[SHEAR], at_the_anchor)),
-        damper_n: damper.and_then(|_| force(&DAMPERS, column_of)),
         axial_tension_n: legs.and_then(|_| force(&AXIAL, tension_in_the_air)),
         ..DesignForces::default()
     }

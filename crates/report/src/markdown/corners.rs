@@ -1,7 +1,7 @@
-//! What is said of the forces at one corner.
+//! What is said of the forces at one corner, and of how members move.
 
-use super::super::{FiledParameters, Run};
-use files::message::{quantity, significant};
+use super::super::{FiledParameters, Run, sentence};
+use files::message::{percent, quantity, significant};
 use results::{CornerForce, DesignForce, DesignForces};
 
 /// What bounds the moment of a column on a footing, for the check that an engineer makes first.
@@ -53,9 +53,36 @@ pub(super) fn at_corners(members: bool, forces: &DesignForces) -> Option<String>
     })
 }
 
+/// How far a tendon and dampers are drawn, and how fast.
+pub(super) fn member_motions(forces: &DesignForces) -> Option<String> {
+    let s = |time: f64| format!("at {} s", significant(time, 4));
+    let tendon = forces.tendon_motion.map(|tendon| {
+        format!(
+            "the tendon is drawn by {} more than it stands {}: strain {}, {} with the pretension, \
+                of one as long as the mass is high",
+            quantity(tendon.elongation_m, "m"),
+            s(tendon.time_s),
+            percent(tendon.strain),
+            percent(tendon.strain_with_pretension)
+        )
+    });
+    let damper = forces.damper_motion.map(|damper| {
+        format!(
+            "a damper is drawn by {} {}, and moves at {} {}; it is never shorter than at rest",
+            quantity(damper.elongation_m, "m"),
+            s(damper.elongation_time_s),
+            quantity(damper.velocity_m_per_s, "m/s"),
+            s(damper.velocity_time_s)
+        )
+    });
+    let told: Vec<String> = [tendon, damper].into_iter().flatten().collect();
+    (!told.is_empty()).then(|| sentence(&format!("{}.", told.join("; "))))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use results::DamperMotion;
 
     #[test]
     fn a_corner_has_both_forces_of_one_instant_and_one_that_is_withheld_none() {
@@ -73,5 +100,22 @@ mod tests {
         assert!(said.contains("anchor") && !said.contains("largest horizontal"), "{said}");
         assert!(!at_corners(false, &forces).unwrap().contains("anchor"));
         assert_eq!(at_corners(true, &DesignForces::default()), None);
+    }
+
+    #[test]
+    fn members_say_how_far_and_how_fast_they_move() {
+        let forces = DesignForces {
+            damper_motion: Some(DamperMotion {
+                elongation_m: 0.0421,
+                elongation_time_s: 3.13,
+                velocity_m_per_s: 0.188,
+                velocity_time_s: 3.506,
+            }),
+            ..DesignForces::default()
+        };
+        let said = member_motions(&forces).unwrap();
+        assert!(said.starts_with("A damper is drawn by 42.1 mm at 3.13 s"), "{said}");
+        assert!(said.contains("188 mm/s at 3.506 s"), "{said}");
+        assert_eq!(member_motions(&DesignForces::default()), None);
     }
 }
