@@ -111,17 +111,7 @@ fn a_dashpot_pulls_on_the_leg_or_the_base_that_it_holds() {
     let along = 35.0 / 35.0_f64.hypot(3.5);
     // a lean of 0.01 turns the leg by a thousandth
     assert!((tension / (pull * along) - 1.0).abs() < 2e-3, "{tension} {pull}");
-    // its own time, not the next sample's; velocity F/c, drawn by the rise of a corner
-    let (largest, motion) = (all.damper_n.unwrap(), all.damper_motion.unwrap());
-    let steps = [8, 9].map(|k| frame_with.demands.peaks[k]);
-    assert!(steps.iter().any(|peak| Some(peak.value) == largest.value
-        && peak.time == largest.time_s
-        && motion.velocity_time_s == peak.time));
-    let speed = largest.value.unwrap().abs() / 2e6;
-    assert!((motion.velocity_m_per_s / speed - 1.0).abs() < 1e-12, "{motion:?}");
-    let theta = rocking::motion::peak(&frame_with.history.motion.theta);
-    let rise = 7.0 * theta.abs().sin();
-    assert!((motion.elongation_m / rise - 1.0).abs() < 1e-12, "{motion:?}");
+    its_damper_moves(&all, &frame_with);
     assert!(pull > 3e5 && all.damper_n.unwrap().value.unwrap().abs() > pull);
     let block = Structure::block(18.0, 2.2, 110e3).unwrap();
     let (all, both) = with(&block, 3e5);
@@ -244,4 +234,20 @@ fn soles_bear_what_the_anchor_of_a_leaning_tendon_does_not() {
     let drawn = body.u(theta).hypot(body.height + body.v(theta)) - body.height;
     assert!((tendon.elongation_m / drawn - 1.0).abs() < 2e-3, "{tendon:?} {drawn}");
     assert!(all.axial_n.unwrap().together.is_some() && corner.corner.is_some());
+}
+
+/// A damper's largest force has its own time, not the next sample's; its velocity is F/c, and it is
+/// drawn by the rise of a corner.
+fn its_damper_moves(all: &DesignForces, with: &MemberHistory) {
+    let (largest, motion) = (all.damper_n.unwrap(), all.damper_motion.unwrap());
+    let own = |k: usize| {
+        let peak = with.demands.peaks[k];
+        let times = [largest.time_s, motion.velocity_time_s];
+        Some(peak.value) == largest.value && times == [peak.time; 2]
+    };
+    assert!(own(8) || own(9), "{largest:?}");
+    let speed = largest.value.unwrap().abs() / 2e6;
+    assert!((motion.velocity_m_per_s / speed - 1.0).abs() < 1e-12, "{motion:?}");
+    let rise = 7.0 * rocking::motion::peak(&with.history.motion.theta).abs().sin();
+    assert!((motion.elongation_m / rise - 1.0).abs() < 1e-12, "{motion:?}");
 }
