@@ -125,9 +125,12 @@ pub struct Parameters {
     /// The match of the rigid body on the record.
     #[serde(rename = "match", default, skip_serializing_if = "Option::is_none")]
     pub matched: Option<Match>,
-    /// How sensitive Housner's history of that record is.
+    /// How sensitive Housner's history of that record is, of the body without members.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub conditioning: Option<ConditioningRow>,
+    /// How sensitive the history with members is, on these springs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub conditioning_with_members: Option<predictability::MembersConditioning>,
     /// The match of the structure with its members, on the same springs, with Housner's equation of
     /// the body that a tendon and dampers act on; with friction, of the bare body.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -188,6 +191,7 @@ impl Parameters {
             friction: None,
             matched: None,
             conditioning: None,
+            conditioning_with_members: None,
             match_with_members: None,
             accuracy_with_members: None,
             landings: Vec::new(),

@@ -17,6 +17,7 @@ use rocking::{
     scalar::GRAVITY,
     structure::{Body, Structure},
 };
+use serde::{Deserialize, Serialize};
 use strong_motion::Record;
 
 /// Relative change of the width.
@@ -56,7 +57,7 @@ pub fn slightly_wider(parameters: &Parameters, record: &Record) -> Motion {
 
 /// How far a change of 0.1 % moves the history of a structure with members: the larger of both
 /// signs, as NRMSE of u.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MembersConditioning {
     /// Of the width.
     pub moved_by_width: f64,
@@ -64,6 +65,7 @@ pub struct MembersConditioning {
     pub moved_by_scale: f64,
     /// Up to when none moves it by a twentieth of its largest displacement so far (s), as
     /// [`conditioning::Changes::holds_to_s`]; none: to its end.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub holds_to_s: Option<f64>,
 }
 
@@ -258,5 +260,9 @@ mod tests {
         let of = MembersConditioning::new(&body, &springs, &record, with);
         assert!((of.moved_by_scale / 1e-3 - 1.0).abs() < 0.02, "{of:?}");
         assert!(of.well_conditioned() && of.predictable_to().is_none(), "{of:?}");
+        // as parameters.json keeps it
+        let row = serde_json::to_value(of).unwrap();
+        assert!(row.get("holds_to_s").is_none() && row["moved_by_scale"] == of.moved_by_scale);
+        assert_eq!(serde_json::from_value::<MembersConditioning>(row).unwrap(), of);
     }
 }

@@ -125,7 +125,7 @@ pub fn peak_table(run: &Run) -> Option<Table> {
         };
         // a rigid body's are those of some strength
         let counted = if name == "impacts" && pair.reference.bending_m.is_none() {
-            " (above 0.02 alpha)"
+            counted_impacts(pair.with_members.as_ref())
         } else if name == "impacts" {
             " (0.1/p apart)"
         } else {
@@ -211,4 +211,34 @@ pub fn summary(run: &Run) -> Table {
         row(words(name), name.unit(), numbers, force.predictable.filter(|_| force.holds));
     }
     table
+}
+
+/// Which impacts of a rigid body are counted: where members hold it all may be gentler.
+fn counted_impacts(with_members: Option<&Peaks>) -> &'static str {
+    let none = |peaks: &Peaks| peaks.impacts == 0 && peaks.drift_ratio > LEAST_DRIFT;
+    match with_members.is_some_and(none) {
+        true => " (above 0.02 alpha; gentler not counted)",
+        false => " (above 0.02 alpha)",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rocking::structure::Structure;
+
+    /// A block that turns to 0.001 alpha and back lands more gently than from 0.02 alpha.
+    #[test]
+    fn a_body_that_hardly_turns_says_why_no_impact_counts() {
+        let block = Structure::block(2.4, 1.2, 1000.0).unwrap();
+        let body = block.body::<f64>();
+        let of = |lean: f64, impacts: usize| {
+            let theta = [0.0, lean * body.alpha(), 0.0];
+            Peaks::of_rigid((block.kind, &body), 0.01, &theta, None, impacts)
+        };
+        assert!(counted_impacts(Some(&of(1e-3, 0))).contains("gentler not counted"));
+        for other in [None, Some(&of(1e-3, 2)), Some(&of(0.0, 0))] {
+            assert_eq!(counted_impacts(other), " (above 0.02 alpha)");
+        }
+    }
 }

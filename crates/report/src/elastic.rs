@@ -224,6 +224,7 @@ impl ElasticParts<'_> {
                 },
                 if_feet_hold: false,
                 of_columns: matches!(self.assembled.structure, ElasticStructure::Frame(_)),
+                tied: false,
             },
         });
         if fell(fem).is_some() != reference_fell.is_some() {

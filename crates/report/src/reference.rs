@@ -223,6 +223,7 @@ pub(crate) fn verdict(
             largest_at_s: TimedPeak::of(record.dt, &both.fem.motion.theta).map(|peak| peak.time),
             if_feet_hold: false,
             of_columns: false,
+            tied: false,
         },
     };
     let with = both.with.as_ref().map(|with| of_members(structure, record, with));
@@ -283,6 +284,7 @@ fn of_members(structure: &Structure, record: &Record, with: &MemberHistory) -> F
             largest_at_s: TimedPeak::of(record.dt, &motion.theta).map(|peak| peak.time),
             if_feet_hold: false,
             of_columns: false,
+            tied: with.members.tendon.is_some(),
         },
     }
 }

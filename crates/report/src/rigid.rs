@@ -91,6 +91,7 @@ impl RigidRun {
         parameters.match_with_members = both.with.as_ref().map(|with| with.matched);
         (parameters.paper_procedure, parameters.table_1) = (paper, recovered);
         parameters.conditioning = Some(report.conditioning.into());
+        parameters.conditioning_with_members = report.of_members;
         parameters.verdict = Some(both.verdict(&job.body, job.record.dt, &report.conditioning));
         let kind = case.structure.kind;
         parameters.peaks = Some(peaks(kind, &job.body, job.record.dt, &both));

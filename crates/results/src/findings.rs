@@ -88,6 +88,9 @@ pub enum Finding {
         /// Whether shares are of columns that rock on footings of their own.
         #[serde(default)]
         of_columns: bool,
+        /// Whether a tendon holds it: it overturns elsewhere than the share is of.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        tied: bool,
     },
     Overturns {
         time_s: f64,

@@ -124,6 +124,7 @@ fn what_it_does(
             largest_at_s: None,
             if_feet_hold: false,
             of_columns: false,
+            tied: false,
         },
         HistoryOutcome::Stopped { time }
         | HistoryOutcome::WorkBound { time }

@@ -134,8 +134,10 @@ impl Finding {
                 largest_at_s,
                 if_feet_hold,
                 of_columns,
+                tied,
                 ..
             } => {
+                let of = if *tied { "overturning without its tendon" } else { "overturning" };
                 let differs = |reference: &f64| {
                     (reference - share_of_overturning).abs()
                         > SHARES_DIFFER * share_of_overturning.max(*reference)
@@ -146,10 +148,10 @@ impl Finding {
                         "{} of overturning without springs, {found} on springs",
                         percent(reference)
                     ),
-                    None => format!("{found} of overturning"),
+                    None => format!("{found} of {of}"),
                 };
                 if *share_of_overturning < HARDLY_ROCKS {
-                    return Some(format!("{HARDLY}: largest rotation {found} of overturning"));
+                    return Some(format!("{HARDLY}: largest rotation {found} of {of}"));
                 }
                 format!(
                     "it rocks and stands{}: largest rotation {}{}{}",

@@ -214,3 +214,21 @@ fn where_feet_end_is_told_with_when_they_last_pressed_and_whether_it_can_be_pred
     let found = serde_json::from_str::<Finding>(filed).unwrap();
     assert_eq!(feet_end(&found).unwrap(), "its feet end 200 mm further apart");
 }
+
+/// A tendon brings a body back from beyond alpha: its share is of the body without it.
+#[test]
+fn a_body_with_a_tendon_has_its_rotation_over_that_of_the_body_without() {
+    let stands = |tied: bool| Finding::Stands {
+        share_of_overturning: 0.171,
+        reference_share: None,
+        over_s: 20.0,
+        largest_at_s: None,
+        if_feet_hold: false,
+        of_columns: false,
+        tied,
+    };
+    assert!(stands(true).message().ends_with("17.1 % of overturning without its tendon"));
+    assert!(stands(false).message().ends_with("17.1 % of overturning"));
+    let json = serde_json::to_value(stands(false)).unwrap();
+    assert!(json.get("tied").is_none());
+}
