@@ -308,6 +308,13 @@ fn draw(
     let reference = reference(parameters, &result.housner);
     // those to another structure tell nothing
     let differences = !reference.behind;
-    let data = HistoryFigure { title: &title, t: &t, reference, others: &others, differences };
+    let data = HistoryFigure {
+        title: &title,
+        t: &t,
+        reference,
+        others: &others,
+        differences,
+        foretold: None,
+    };
     Ok(history::draw(&data)?.save(&out.join("verify.png"))?)
 }

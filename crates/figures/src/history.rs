@@ -14,7 +14,7 @@ use super::number::{prefix, short};
 use super::panel::{Panel, PanelFrame, ROW};
 use super::plot::{self, EventMark};
 use super::scale::{Scale, around_zero};
-use super::style::{self, BLACK, NUMBER, Pen, WIDTH};
+use super::style::{self, BLACK, GREY, NUMBER, Pen, WIDTH};
 use super::{Check, FigureError, Sheet};
 use shown::shown;
 
@@ -83,6 +83,8 @@ pub struct HistoryFigure<'a> {
     pub others: &'a [Trace<'a>],
     /// A third panel: u of the others less u of the reference.
     pub differences: bool,
+    /// Up to when the histories can be foretold.
+    pub foretold: Option<EventMark<'a>>,
 }
 
 /// A trace and how it is drawn.
@@ -100,6 +102,7 @@ pub fn draw(data: &HistoryFigure<'_>) -> Result<Sheet, FigureError> {
         t: &data.t[..n],
         reference: data.reference.first(n),
         others: &others,
+        foretold: data.foretold.filter(|mark| mark.time <= data.t[n - 1]),
         ..*data
     };
     let traces: Vec<Drawn> = std::iter::once((data.reference, Pen::new(BLACK, 5.0)))
@@ -114,9 +117,9 @@ pub fn draw(data: &HistoryFigure<'_>) -> Result<Sheet, FigureError> {
     let top = legend::header(&mut canvas, data.title, &entries, LEFT, RIGHT);
     let x = Scale::linear(data.t[0], data.t[data.t.len() - 1]);
     let frame = PanelFrame { left: LEFT, top, right: RIGHT, bottom: top + 560.0 };
-    horizontal(&mut canvas, data.t, &traces, x, frame);
+    horizontal(&mut canvas, data, &traces, x, frame);
     let frame = PanelFrame { top: frame.bottom + 34.0, bottom: frame.bottom + 350.0, ..frame };
-    vertical(&mut canvas, data.t, &traces, x, frame, !data.differences);
+    vertical(&mut canvas, data, &traces, x, frame);
     let mut bottom = frame.bottom;
     if data.differences {
         let frame = PanelFrame { top: bottom + 34.0, bottom: bottom + 330.0, ..frame };
@@ -184,12 +187,19 @@ fn bounds<'a>(t: &[f64], traces: &[Drawn<'a>], of: fn(&Trace<'a>) -> &'a [f64]) 
     (least.max(low - room), most.min(high + room))
 }
 
+/// Where histories end, and up to when they can be foretold.
+fn ends<'a>(data: &HistoryFigure<'a>, traces: &[Drawn<'a>]) -> Vec<(EventMark<'a>, Pen)> {
+    let foretold = data.foretold.map(|mark| (mark, Pen::new(GREY, 2.4).dashed()));
+    let end = |(trace, pen): &Drawn<'a>| Some((trace.end?, Pen { width: 2.4, ..pen.dashed() }));
+    foretold.into_iter().chain(traces.iter().filter_map(end)).collect()
+}
+
 /// The curves of one quantity, and where they end.
 fn curves<'a>(
     canvas: &mut Canvas,
     panel: &Panel,
     label: &str,
-    t: &[f64],
+    data: &HistoryFigure<'_>,
     traces: &[Drawn<'a>],
     (of, unit): (fn(&Trace<'a>) -> &'a [f64], f64),
     told: bool,
@@ -202,16 +212,20 @@ fn curves<'a>(
         .zip(&values)
         .map(|((trace, pen), values)| (trace.label, values.as_slice(), *pen))
         .collect();
-    let mut plot = panel.history(canvas, label, t, &named);
-    let ends: Vec<(EventMark, Pen)> = traces
-        .iter()
-        .filter_map(|(trace, pen)| Some((trace.end?, Pen { width: 2.4, ..pen.dashed() })))
-        .collect();
+    let mut plot = panel.history(canvas, label, data.t, &named);
+    let ends: Vec<(EventMark, Pen)> = ends(data, traces);
     panel.events(canvas, &mut plot, &ends, told);
     plot
 }
 
-fn horizontal(canvas: &mut Canvas, t: &[f64], traces: &[Drawn<'_>], x: Scale, frame: PanelFrame) {
+fn horizontal(
+    canvas: &mut Canvas,
+    data: &HistoryFigure<'_>,
+    traces: &[Drawn<'_>],
+    x: Scale,
+    frame: PanelFrame,
+) {
+    let t = data.t;
     let (low, high) = bounds(t, traces, |trace| trace.u);
     let (unit, name) = unit((low, high));
     let (low, high, label) = (low / unit, high / unit, format!("horizontal, u [{name}]"));
@@ -219,12 +233,12 @@ fn horizontal(canvas: &mut Canvas, t: &[f64], traces: &[Drawn<'_>], x: Scale, fr
     // Room for the numbers of the peaks and the words about ends, and below for the rows of impacts
     // [pixel].
     let rows = traces.iter().filter(|(trace, _)| !trace.impacts.is_empty()).count() as f64;
-    let ends = traces.iter().filter(|(trace, _)| trace.end.is_some()).count() as f64;
+    let ends = ends(data, traces).len() as f64;
     let (above, below) = (52.0 + ROW * ends, 52.0 + 25.0 * rows);
     let pixel = size / (frame.bottom - frame.top - above - below);
     let panel = Panel { frame, x, y: Scale::linear(low - below * pixel, high + above * pixel) };
     panel.axes(canvas, None, &label, GUTTER);
-    let mut plot = curves(canvas, &panel, &label, t, traces, (|trace| trace.u, unit), true);
+    let mut plot = curves(canvas, &panel, &label, data, traces, (|trace| trace.u, unit), true);
     peak(canvas, &panel, t, traces, (|trace| trace.u, unit), 1.0);
     peak(canvas, &panel, t, traces, (|trace| trace.u, unit), -1.0);
     let impacting = traces.iter().rev().filter(|(trace, _)| !trace.impacts.is_empty());
@@ -251,19 +265,19 @@ fn horizontal(canvas: &mut Canvas, t: &[f64], traces: &[Drawn<'_>], x: Scale, fr
 
 fn vertical(
     canvas: &mut Canvas,
-    t: &[f64],
+    data: &HistoryFigure<'_>,
     traces: &[Drawn<'_>],
     x: Scale,
     frame: PanelFrame,
-    last: bool,
 ) {
+    let (t, last) = (data.t, !data.differences);
     let (low, high) = bounds(t, traces, |trace| trace.v);
     let (unit, name) = unit((low, high));
     let (low, high, label) = (low / unit, high / unit, format!("vertical, v [{name}]"));
     let size = high - low;
     let panel = Panel { frame, x, y: Scale::linear(low - 0.05 * size, high + 0.22 * size) };
     panel.axes(canvas, if last { Some("time [s]") } else { None }, &label, GUTTER);
-    let plot = curves(canvas, &panel, &label, t, traces, (|trace| trace.v, unit), false);
+    let plot = curves(canvas, &panel, &label, data, traces, (|trace| trace.v, unit), false);
     peak(canvas, &panel, t, traces, (|trace| trace.v, unit), 1.0);
     canvas.keep(plot);
 }

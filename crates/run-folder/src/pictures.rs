@@ -44,6 +44,8 @@ pub(crate) struct Pictures<'a> {
     pub job: &'a Job,
     pub both: &'a ModelComparison,
     pub front: &'a [TradeoffPoint],
+    /// Up to when the histories can be foretold, where not all of them (s).
+    pub foretold_s: Option<f64>,
 }
 
 impl Pictures<'_> {
@@ -191,12 +193,15 @@ impl Pictures<'_> {
         };
         let others = [other, without];
         let title = self.title(what);
+        let foretold =
+            self.foretold_s.map(|until| (until, format!("predictable to t = {until:.2} s")));
         let data = figures::history::HistoryFigure {
             title: &title,
             t: &t,
             reference,
             others: if own == Some(true) { &others } else { &others[..1] },
             differences: false,
+            foretold: event(&foretold),
         };
         figures::history::draw(&data).map(Some)
     }

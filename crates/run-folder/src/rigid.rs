@@ -86,8 +86,9 @@ pub fn save(rigid: &RigidRun, out: &Path, output: Output) -> Result<Vec<String>,
         decks.write(out).map(|()| decks.left_out)
     };
     let RigidRun { case, job, front, both, .. } = rigid;
+    let foretold_s = predictable_to(&rigid.parameters.findings);
     let figures = || match output.figures {
-        true => Pictures { case, job, both, front }.draw(),
+        true => Pictures { case, job, both, front, foretold_s }.draw(),
         false => Ok(Vec::new()),
     };
     let (left_out, figures) = parallel::join(written, figures);

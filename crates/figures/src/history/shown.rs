@@ -48,8 +48,7 @@ mod tests {
         let seconds = |u: &[f64], end: Option<EventMark>| {
             let v = vec![0.0; t.len()];
             let reference = Trace { u, v: &v, end, ..Trace::default() };
-            let data =
-                HistoryFigure { title: "", t: &t, reference, others: &[], differences: false };
+            let data = HistoryFigure { t: &t, reference, ..HistoryFigure::default() };
             0.01 * shown(&data) as f64
         };
         for stays in [0.0, 0.03] {

@@ -13,6 +13,7 @@ fn toppling(behind: bool) -> Sheet {
         reference: Trace { behind, ..trace("Housner", &falls) },
         others: &[trace("one", &one), trace("other", &other)],
         differences: !behind,
+        ..HistoryFigure::default()
     })
     .unwrap()
 }
@@ -50,4 +51,20 @@ fn labels_are_not_cut_at_the_edge_of_the_sheet() {
     let number = texts().find(|(text, ..)| text.ends_with("10000")).unwrap();
     let (text, x, how) = number;
     assert!(x - how.length(text) > right, "{text} at {x}, labels to {right}");
+}
+
+/// A line at that time in every panel of displacements, none where the figure ends before.
+#[test]
+fn up_to_when_histories_can_be_foretold_is_marked() {
+    let t: Vec<f64> = (0..2001).map(|i| 0.01 * f64::from(i)).collect();
+    let sway: Vec<f64> = t.iter().map(|t| 0.1 * (3.0 * t).sin()).collect();
+    let reference = Trace { label: "Housner", u: &sway, v: &sway, ..Trace::default() };
+    let marks = |time: f64| -> Vec<Vec<(f64, String)>> {
+        let foretold = Some(EventMark { time, text: "predictable to there" });
+        let data = HistoryFigure { t: &t, reference, foretold, ..HistoryFigure::default() };
+        draw(&data).unwrap().plots.into_iter().map(|plot| plot.events).collect()
+    };
+    let mark = vec![(7.3, "predictable to there".to_string())];
+    assert_eq!(marks(7.3), [mark.clone(), mark]);
+    assert_eq!(marks(25.0), [Vec::new(), Vec::new()]);
 }

@@ -70,6 +70,7 @@ fn draw_history(three: bool) -> Result<Sheet, FigureError> {
         },
         others: if three { &others } else { &others[..1] },
         differences: three,
+        ..history::HistoryFigure::default()
     };
     history::draw(&data)
 }

@@ -41,8 +41,12 @@ fn screen_of(said: &Run, folder: &str) -> String {
 
 fn page_of(run: &RigidRun, figures: bool) -> String {
     let RigidRun { case, job, front, both, .. } = run;
-    let figures =
-        if figures { Pictures { case, job, both, front }.draw().unwrap() } else { Vec::new() };
+    let foretold_s = None;
+    let figures = if figures {
+        Pictures { case, job, both, front, foretold_s }.draw().unwrap()
+    } else {
+        Vec::new()
+    };
     let figures: Vec<Drawing> = figures.iter().map(drawing).collect();
     let page = super::page(&run.said(run.parameters.clone()), &figures);
     assert!(page.len() < 2_000_000, "{} bytes", page.len());
