@@ -5,11 +5,19 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{CommandError, terminal};
-use cases::{LONGEST_S, NO_MOTION, doubts::of_excitation};
+use cases::{
+    LONGEST_S, NO_MOTION,
+    doubts::{Doubt, of_excitation},
+};
 use strong_motion::{
     Notice, ReadOptions, Record, Recording, Source, TableColumn, Units, VerticalFrom,
     excitation::Excitation,
 };
+
+/// What is to be looked at again, a line each.
+pub fn look_again(doubts: &[Doubt]) {
+    doubts.iter().for_each(|doubt| terminal::stderr(format_args!("CHECK {doubt}")));
+}
 
 /// What a record file does not say itself.
 #[derive(Clone, Debug, Default, Args)]
@@ -17,7 +25,7 @@ pub struct ReadingOptions {
     /// Time step, where the file does not say
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     dt: Option<f64>,
-    /// g, m/s2, cm/s2 or mm/s2, where the file does not say
+    /// g, m/s2, cm/s2, mm/s2, mg, %g, ft/s2, in/s2 or mGal, where the file does not say
     #[arg(long)]
     units: Option<Units>,
     /// Component, by name or by azimuth in degrees, of a file with several [default: the stronger
@@ -113,9 +121,7 @@ impl RecordOptions {
     ) -> Result<Excitation, CommandError> {
         let excitation = self.excitation(default)?;
         if !self.is_own() || self.duration.is_some() {
-            for doubt in of_excitation(&excitation) {
-                terminal::stderr(format_args!("CHECK {}; {}", doubt.message(), doubt.remedy()));
-            }
+            look_again(&of_excitation(&excitation));
         }
         Ok(excitation)
     }

@@ -6,10 +6,10 @@ use clap::Args;
 
 use super::{
     CommandError,
-    common::{RecordOptions, restitution},
+    common::{RecordOptions, look_again, restitution},
     terminal,
 };
-use cases::Case;
+use cases::{Case, doubts::of_excitation};
 use rocking::{
     housner::{self, RockingOutcome},
     motion::{peak, samples_until},
@@ -49,12 +49,15 @@ pub fn run(o: &HousnerOptions) -> Result<(), CommandError> {
     };
     let members = default.members;
     let excitation = o.record.excitation_of_case(&default.excitation, &default.notices)?;
+    let of_structure = if o.case.is_some() { default.doubts_of_structure() } else { Vec::new() };
     let out = o.out.as_deref().map(|path| file_in(path, "housner.csv")).transpose()?;
     if let Some(path) = &out {
         let inputs = [o.case.as_ref(), o.record.record.as_ref()].into_iter().flatten();
         not_an_input(path, inputs.map(PathBuf::as_path))?;
     }
     let record = excitation.used()?;
+    look_again(&of_structure);
+    look_again(&of_excitation(&excitation));
     let body = structure.body::<f64>();
     let options = housner::RockingOptions {
         restitution: restitution(o.restitution)?.or(e),

@@ -145,7 +145,7 @@ const REST: &str = "
 # column = 2             # of a table of several columns, counted from 1, or its name in the header
 # vertical = \"auto\"      # the file's vertical component, or another file's; left out: none
 # dt_s = 0.01            # where the file does not say
-# units = \"cm/s2\"        # g, m/s2, cm/s2 or mm/s2, where the file does not say
+# units = \"cm/s2\"        # or g, m/s2, mm/s2, mg, %g, ft/s2, in/s2, mGal; left out: by the file
 scale = 1.0              # factor on the acceleration, with a decimal point
 # duration_s = 20.0      # left out: the whole record
 

@@ -12,13 +12,16 @@ use super::{
     common::{ReadingOptions, again},
     terminal,
 };
-use cases::{Case, LONGEST_S};
+use cases::{
+    Case, LONGEST_S,
+    doubts::{Doubt, of_excitation},
+};
 use files::message::printable;
 use rocking::{scalar::GRAVITY, structure::Body};
 use row::ComponentRow;
 use run_folder::FolderError;
 use run_folder::place::check_folder;
-use strong_motion::{ReadOptions, RecordFormat, Recording};
+use strong_motion::{Notice, ReadOptions, Record, RecordFormat, Recording, excitation::of_record};
 
 /// Options of `tune record`.
 #[derive(Debug, Args)]
@@ -44,7 +47,9 @@ pub struct RecordFileOptions {
 fn of_several_files(option: Arg) -> Arg {
     let help = match option.get_id().as_str() {
         "dt" => "Time step, where the files do not say",
-        "units" => "g, m/s2, cm/s2 or mm/s2, where the files do not say",
+        "units" => {
+            "g, m/s2, cm/s2, mm/s2, mg, %g, ft/s2, in/s2 or mGal, where the files do not say"
+        }
         "component" => {
             "Component to take, by name or by azimuth in degrees [default: the stronger \
              horizontal one]"
@@ -143,6 +148,14 @@ fn named(
     Ok(vec![read])
 }
 
+/// What a run would say of the peak of the part that it takes.
+fn of_peak(record: &Record, duration_s: f64) -> impl Iterator<Item = Doubt> {
+    let excitation = of_record(record.clone(), 1.0, Some(duration_s));
+    let of_its_peak =
+        |doubt: &Doubt| matches!(doubt, Doubt::WeakMotion { .. } | Doubt::StrongMotion { .. });
+    of_excitation(&excitation).into_iter().filter(of_its_peak)
+}
+
 impl FileReport {
     fn new(file: &Path, recording: &Recording, body: Option<&Body<f64>>, duration_s: f64) -> Self {
         let taken = recording.component();
@@ -154,8 +167,15 @@ impl FileReport {
                 notices.extend(component.notices(&file.display().to_string()));
             }
         }
+        let shown = file.display().to_string();
+        let of_a_peak =
+            |notice: &Notice| matches!(notice, Notice::Weak { .. } | Notice::Strong { .. });
+        let told = notices.iter().any(of_a_peak);
+        let mut notices: Vec<String> = notices.iter().map(ToString::to_string).collect();
+        let doubts = of_peak(&taken.record, duration_s).filter(|_| !told);
+        notices.extend(doubts.map(|doubt| format!("{shown}: {doubt}")));
         Self {
-            file: file.display().to_string(),
+            file: shown,
             format: recording.format,
             station: recording.station.clone(),
             components: (0..recording.components.len())
@@ -168,7 +188,7 @@ impl FileReport {
                 pga_g: taken.record.truncated(duration_s).pga_g(),
                 pga_time_s: peak.time.unwrap_or(0.0),
             },
-            notices: notices.iter().map(ToString::to_string).collect(),
+            notices,
         }
     }
 

@@ -47,7 +47,7 @@ pub struct ValidateOptions {
     /// Time step, where the files do not say
     #[arg(long, value_name = "SECONDS", requires = "given", allow_negative_numbers = true)]
     dt: Option<f64>,
-    /// g, m/s2, cm/s2 or mm/s2, where the files do not say
+    /// g, m/s2, cm/s2, mm/s2, mg, %g, ft/s2, in/s2 or mGal, where the files do not say
     #[arg(long, requires = "given")]
     units: Option<Units>,
     /// Component, by name or by azimuth in degrees, of files with several [default: the stronger

@@ -110,3 +110,26 @@ fn options_speak_of_the_file_that_a_case_names() {
         &["a.txt: the unit of acceleration is not in the file"],
     );
 }
+
+#[test]
+fn housner_and_record_doubt_what_a_run_doubts() {
+    let millimetres = "[structure]\nkind = \"block\"\ntotal_height_m = 1700.0\nwidth_m = 500.0\n\
+        mass_kg = 310.0\n";
+    let checks = |line: &str| -> Vec<String> {
+        let said = accepts(&[("case.toml", millimetres), ("weak.csv", WEAK)], line);
+        said.lines().filter(|line| line.contains("; ")).map(str::to_owned).collect()
+    };
+    let of_structure = doubts(millimetres, "--duration 2");
+    let said = checks("housner case.toml --duration 2 --out h.csv");
+    assert!(of_structure.len() == 2 && said.len() == 2, "{of_structure:?} {said:?}");
+    assert!(of_structure.iter().all(|doubt| said.contains(&format!("CHECK {doubt}"))), "{said:?}");
+    let long = checks("housner --duration 90 --out h.csv");
+    let told = "CHECK 90 s are asked for, the record has 39.94 s; all of it is used";
+    assert!(long.len() == 1 && long[0].starts_with(told), "{long:?}");
+    let weak = checks("record weak.csv");
+    let told = "weak.csv: the ground motion has a peak of 5.6e-4 g, below 0.005 g; check the unit \
+        of the record and its scale";
+    assert_eq!(weak, [told]);
+}
+
+const WEAK: &str = "t [s],a [g]\n0.00,0.00056\n0.01,-0.0005\n0.02,0.0001\n0.03,0.0\n";

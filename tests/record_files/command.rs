@@ -95,7 +95,8 @@ fn other_commands_take_the_component_that_is_asked_for() {
     let name = |line: &str| {
         let err = dir.runs(line).stderr;
         let used = err.lines().find_map(|line| line.strip_prefix("record ")).unwrap();
-        (used.split(" (").next().unwrap().to_owned(), err.lines().count())
+        let told = err.lines().filter(|line| !line.starts_with("CHECK "));
+        (used.split(" (").next().unwrap().to_owned(), told.count())
     };
     for (line, used, lines) in [
         ("housner --record site.V2A --component N28W", "site N28W", 2),
@@ -105,6 +106,11 @@ fn other_commands_take_the_component_that_is_asked_for() {
     ] {
         assert_eq!(name(line), (used.into(), lines));
     }
+    let vertical = dir.runs("housner case.toml").stderr;
+    assert!(
+        vertical.contains("CHECK component Up (vertical), a vertical one, is taken"),
+        "{vertical}"
+    );
     for (line, words) in [
         ("housner --record site.V2A --component 90", "there is no component 90; it has N28W"),
         ("housner --component 90", "name it with --record"),

@@ -16,7 +16,7 @@ pub(super) struct RecordSection {
     file: Option<PathBuf>,
     /// Time step (s), where the file does not say.
     dt_s: Option<f64>,
-    /// "g", "m/s2", "cm/s2" or "mm/s2", where the file does not say.
+    /// As [`Units`] are named, where the file does not say.
     units: Option<Units>,
     /// Component by name or azimuth, where the file has several; the stronger horizontal one unless
     /// given.

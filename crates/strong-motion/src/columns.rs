@@ -5,9 +5,11 @@
 
 mod line;
 
-use self::line::{damaged_first_line, fields, has_decimal_commas};
+use self::line::{
+    blank_fields, bracketed, damaged_first_line, fields, has_decimal_commas, pairs_are_decimals,
+};
 use super::column;
-use super::header::{self, TimeUnit, is_comment, step_in};
+use super::header::{self, TimeUnit, is_comment, rate_in, step_in};
 use super::parsed::{Parsed, Samples, mean};
 use super::text::{lines, number, precision, quote};
 use super::timing::Times;
@@ -58,14 +60,16 @@ fn series(
 ) -> Result<Parsed, RecordError> {
     let milliseconds = table.converts_milliseconds(file, names)?;
     let of_columns = || table.header.last().map(|(_, line)| *line);
-    let units = units::declared(&table.header, table.column_name.or_else(of_columns));
+    let units = units::declared(&table.header, table.column_name.or_else(of_columns))
+        // a row of units below the names
+        .or_else(|| names.last()?.parse().ok());
     let quantity = header::quantity(&table.header, names);
     if quantity == Some(header::COUNTS) || table.holds_counts(units.or(options.units)) {
         return Err(RecordError::Counts { file: file.to_owned() });
     }
     let said = || table.header.iter().find_map(|(_, line)| step_in(line));
     let said = || said().map_or((None, 0.0), |(dt, rounding)| (Some(dt), rounding));
-    let mut row_by_row = None;
+    let (mut row_by_row, mut other_step) = (None, None);
     let ((dt, dt_rounding), values) = match table.columns {
         0 | 1 => (said(), table.values),
         _ if table.is_bare(file, options, names)? => {
@@ -77,7 +81,9 @@ fn series(
             let step = match table.lines {
                 0 | 1 => said(),
                 _ => {
-                    table.times.step(file, options.dt).map(|(dt, rounding)| (Some(dt), rounding))?
+                    let (dt, rounding) = table.times.step(file, options.dt)?;
+                    other_step = table.other_step(dt, rounding);
+                    (Some(dt), rounding)
                 }
             };
             (step, table.values.chunks(2).filter_map(|row| row.get(1).copied()).collect())
@@ -85,7 +91,7 @@ fn series(
     };
     let parsed =
         Parsed::bare(Samples { units, quantity, dt, dt_rounding, values, ..Samples::default() });
-    Ok(Parsed { row_by_row, milliseconds, ..parsed })
+    Ok(Parsed { row_by_row, milliseconds, other_step, ..parsed })
 }
 
 /// Whether a text holds columns of numbers, at least two rows of them.
@@ -107,6 +113,8 @@ struct NumberTable<'a> {
     times: Times,
     /// The last row, where it has fewer columns: its line and how many.
     short: Option<(usize, usize)>,
+    /// Columns without a number that separators at the ends of rows open.
+    blank: usize,
     /// No number has a decimal point.
     whole: bool,
     /// The name of the column that was chosen.
@@ -146,6 +154,7 @@ impl<'a> NumberTable<'a> {
                 damaged_first_line(file, table.header.last(), fields.len())?;
                 (table.columns, table.first_line) = (fields.len(), line);
             }
+            table.blank = table.blank.max(blank_fields(content));
             table.push(file, line, &fields)?;
             table.whole &= !content.contains(['.', 'e', 'E']);
             if content.contains(',') && comma.is_none() {
@@ -154,7 +163,9 @@ impl<'a> NumberTable<'a> {
         }
         let semicolons = || lines(text).any(|(_, content)| content.contains(';'));
         match comma {
-            Some((line, content)) if table.whole && table.columns == 2 && !semicolons() => {
+            Some((line, content))
+                if table.whole && !semicolons() && (table.columns == 2 || table.pairs(content)) =>
+            {
                 Err(RecordError::DecimalComma { file: file_name(), line, text: quote(content) })
             }
             _ => Ok(table),
@@ -191,8 +202,27 @@ impl<'a> NumberTable<'a> {
     /// The names of the columns, if the last header line has as many fields.
     fn names(&self) -> Vec<&'a str> {
         let Some((_, line)) = self.header.last() else { return Vec::new() };
-        let names = fields(line.trim_start_matches(['#', '%', '!', '/']).trim());
+        let line = line.trim_start_matches(['#', '%', '!', '/']).trim();
+        let mut names = fields(line);
+        if !line.contains([',', ';']) && names.len() > self.columns {
+            names = bracketed(line);
+        } else if names.len() <= self.columns + self.blank {
+            names.truncate(self.columns);
+        }
         if names.len() == self.columns { names } else { Vec::new() }
+    }
+
+    /// Whether the columns are halves of decimals.
+    fn pairs(&self, content: &str) -> bool {
+        pairs_are_decimals(content, self.header.last().map(|(_, line)| *line))
+    }
+
+    /// The time step that the header says, if the times have another.
+    fn other_step(&self, dt: f64, rounding: f64) -> Option<f64> {
+        let said = |line: &str| step_in(line).or_else(|| rate_in(line));
+        let (said, digit) = self.header.iter().find_map(|(_, line)| said(line))?;
+        let apart = (said - dt).abs();
+        (apart > digit + rounding && apart > 0.02 * dt).then_some(said)
     }
 
     /// Whether the numbers of several columns are one series, row by row: a time step is given, and
@@ -317,7 +347,7 @@ impl<'a> NumberTable<'a> {
         if !self.whole
             || self.columns == 2
             || self.values.len() < 3
-            || units == Some(Units::MillimetrePerSecond2)
+            || units.is_some_and(|units| units.metres_per_second2() <= 1e-3)
         {
             return false;
         }

@@ -74,9 +74,13 @@ pub enum RecordError {
     /// Times are not evenly spaced.
     #[error(
         "{file}, line {line}: the time step is {step:?} s where {expected:?} s is expected; \
-         resample evenly, or if the times are only printed coarsely pass --dt"
+         resample evenly{}",
+        match .given {
+            None => ", or if the times are only printed coarsely pass --dt".to_owned(),
+            Some(dt) => format!(": --dt {dt:?} does not make these times even"),
+        }
     )]
-    Uneven { file: String, line: usize, step: f64, expected: f64 },
+    Uneven { file: String, line: usize, step: f64, expected: f64, given: Option<f64> },
     /// Times fall.
     #[error(
         "{file}, line {line}: the time falls from {before:?} to {time:?} s, as most of them do; \
@@ -121,7 +125,7 @@ pub enum RecordError {
     /// Neither the file nor the user says the unit.
     #[error(
         "{file}: the unit of acceleration is not in the file; pass --units g, m/s2, \
-         cm/s2 or mm/s2"
+         cm/s2, mm/s2, mg, %g, ft/s2, in/s2 or mGal"
     )]
     NoUnits { file: String },
     /// Times are in a unit that is not known.
@@ -204,7 +208,7 @@ pub enum RecordError {
     /// The unit that the file names is no known acceleration.
     #[error(
         "{file}, line {line}: the unit '{unit}' is no acceleration that is known; give g, m/s2, \
-         cm/s2 (gal) or mm/s2"
+         cm/s2 (gal), mm/s2, mg, %g, ft/s2, in/s2 or mGal"
     )]
     ForeignUnit { file: String, line: usize, unit: String },
     /// The component asked for is not there, or more than one is meant.

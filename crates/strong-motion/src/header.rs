@@ -203,6 +203,22 @@ pub(super) fn step_in(line: &str) -> Option<(f64, f64)> {
     Some((dt * factor, 0.5 * factor * 10_f64.powi(precision(token).0)))
 }
 
+/// The time step of a rate such as `sampled at 200 Hz`, `sampling rate: 200 Hz`, and half the last
+/// digit of the rate, as a step.
+pub(super) fn rate_in(line: &str) -> Option<(f64, f64)> {
+    let lower = line.to_ascii_lowercase();
+    let words = ["sampled at", "sampling rate", "sampling frequency", "sample rate"];
+    let after = words.iter().find_map(|word| lower.split_once(word).map(|(_, after)| after))?;
+    let after = after.trim_start_matches([' ', ':', '=', '\t']);
+    let end = after.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(after.len());
+    let (rate, unit) = after.split_at(end);
+    if !unit.trim_start().starts_with("hz") {
+        return None;
+    }
+    let hertz = number(rate).filter(|rate| rate.is_finite() && *rate > 0.0)?;
+    Some((1.0 / hertz, 0.5 * 10_f64.powi(precision(rate).0) / hertz.powi(2)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -257,6 +273,11 @@ mod tests {
         assert_eq!(step_in("# dt = 5 ms"), Some((0.005, 0.5e-3)));
         assert_eq!(step_in("# dt = 5ms"), Some((0.005, 0.5e-3)));
         assert_eq!(step_in("# dt = 0.5 min"), None);
+        assert_eq!(rate_in("# sampled at 200 Hz"), Some((0.005, 0.5 / 4e4)));
+        assert_eq!(rate_in("Sampling rate: 100.0 Hz"), Some((0.01, 0.05 / 1e4)));
+        for line in ["# low pass at 50 Hz", "sampling rate 200", "sampled at Hz", "t (s)"] {
+            assert_eq!(rate_in(line), None, "{line}");
+        }
     }
 
     #[test]

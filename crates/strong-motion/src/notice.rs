@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use files::message::significant;
+
 use super::Record;
 use super::text::quote;
 
@@ -15,6 +17,8 @@ pub enum Notice {
     RowByRow { file: String, columns: usize, samples: usize },
     /// The times were in ms by the name of their column.
     Milliseconds { file: String, dt: f64 },
+    /// The header says another time step than the times have, which are taken.
+    OtherStep { file: String, said: f64, dt: f64 },
     /// The file has vertical components alone.
     OnlyVertical { file: String, component: String },
     /// The vertical component goes on after the record's end.
@@ -105,6 +109,12 @@ impl fmt::Display for Notice {
             Self::Milliseconds { file, dt } => {
                 write!(f, "{file}: times in ms, as their column is named, make a step of {dt} s")
             }
+            Self::OtherStep { file, said, dt } => write!(
+                f,
+                "{file}: the header says a time step of {} s, the times have {dt} s, which is \
+                 taken; check which is right",
+                significant(*said, 4)
+            ),
             Self::OnlyVertical { file, component } => {
                 write!(
                     f,

@@ -14,6 +14,8 @@ pub(super) struct Parsed {
     pub row_by_row: Option<usize>,
     /// Its times were in ms.
     pub milliseconds: bool,
+    /// The time step that the header says, where its times have another (s).
+    pub other_step: Option<f64>,
 }
 
 /// One component.

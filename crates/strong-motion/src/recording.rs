@@ -51,6 +51,8 @@ pub struct Recording {
     row_by_row: Option<usize>,
     /// Its times were in ms.
     milliseconds: bool,
+    /// The time step that the header says, where its times have another (s).
+    other_step: Option<f64>,
     /// The vertical component asked for, and how many samples after the record's end it has.
     vertical: Option<(Record, usize)>,
     pub(super) file: String,
@@ -141,6 +143,7 @@ impl Recording {
             chosen: parsed.chosen,
             row_by_row: parsed.row_by_row,
             milliseconds: parsed.milliseconds,
+            other_step: parsed.other_step,
             vertical: None,
             file: file.clone(),
         };
@@ -195,6 +198,9 @@ impl Recording {
         }
         if self.milliseconds {
             notices.push(Notice::Milliseconds { file: file(), dt: taken.record.dt });
+        }
+        if let Some(said) = self.other_step {
+            notices.push(Notice::OtherStep { file: file(), said, dt: taken.record.dt });
         }
         if !self.asked && self.components.len() > 1 {
             let others = self.components.iter().enumerate().filter(|(i, _)| *i != self.taken);

@@ -1,6 +1,7 @@
 use super::*;
 
 mod robustness;
+mod spreadsheet;
 
 fn parse(file: &str, text: &str) -> Result<Record, RecordError> {
     Record::parse(file, text.as_bytes(), &ReadOptions::default())

@@ -4,8 +4,12 @@ use std::borrow::Cow;
 
 use super::RecordError;
 
+/// A raised 2 in Latin-1 and in Windows' code page 1252.
+const LATIN_1_SQUARED: u8 = 0xb2;
+
 /// The file as text. Bytes that are not UTF-8 (station names in Latin-1) become replacement
-/// characters, which no number survives; control characters mean that this is no text at all.
+/// characters, which no number survives, but for the power of m/s2; control characters mean that
+/// this is no text at all.
 pub(super) fn decode<'a>(file: &str, bytes: &'a [u8]) -> Result<Cow<'a, str>, RecordError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let bytes = bytes.strip_suffix(b"\x1a").unwrap_or(bytes); // DOS end-of-file mark
@@ -13,8 +17,21 @@ pub(super) fn decode<'a>(file: &str, bytes: &'a [u8]) -> Result<Cow<'a, str>, Re
         |b: u8| b >= 0x20 && b != 0x7f || matches!(b, b'\t' | b'\n' | b'\r' | 0x0b | 0x0c);
     match bytes.iter().position(|&b| !allowed(b)) {
         Some(byte) => Err(RecordError::Binary { file: file.to_owned(), byte, value: bytes[byte] }),
-        None => Ok(String::from_utf8_lossy(bytes)),
+        None => Ok(match std::str::from_utf8(bytes) {
+            Ok(text) => Cow::Borrowed(text),
+            Err(_) => Cow::Owned(bytes.utf8_chunks().map(in_latin_1).collect()),
+        }),
     }
+}
+
+/// A piece of a file that is not all UTF-8.
+fn in_latin_1(chunk: std::str::Utf8Chunk) -> String {
+    let other = match chunk.invalid() {
+        [] => "",
+        [LATIN_1_SQUARED] => "\u{b2}",
+        _ => "\u{fffd}",
+    };
+    chunk.valid().to_owned() + other
 }
 
 /// Lines with their numbers from 1, without blanks around them; LF, CRLF or CR alone ends a line.
@@ -150,5 +167,7 @@ mod tests {
         ));
         assert_eq!(decode("x", b"\xef\xbb\xbf1\x1a").unwrap(), "1");
         assert_eq!(decode("x", b"caf\xe9").unwrap(), "caf\u{fffd}");
+        assert_eq!(decode("x", b"acc\xe9l\xe9ration (m/s\xb2)").unwrap().len(), 24);
+        assert!(decode("x", b"acc\xe9l\xe9ration (m/s\xb2)").unwrap().ends_with(" (m/s\u{b2})"));
     }
 }

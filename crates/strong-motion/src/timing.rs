@@ -54,7 +54,7 @@ impl Times {
             {
                 Ok((dt, rounding))
             }
-            _ => Err(self.uneven(file)),
+            _ => Err(self.uneven(file, given)),
         }
     }
 
@@ -112,7 +112,7 @@ impl Times {
     }
 
     /// The step that stands out most from the median step.
-    fn uneven(&self, file: &str) -> RecordError {
+    fn uneven(&self, file: &str, given: Option<f64>) -> RecordError {
         let steps: Vec<f64> = self.times.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let mut sorted = steps.clone();
         sorted.sort_by(f64::total_cmp);
@@ -138,6 +138,7 @@ impl Times {
             line: self.lines.get(worst + 1).copied().unwrap_or(1),
             step: tidy(steps.get(worst).copied().unwrap_or(0.0)),
             expected: tidy(median),
+            given,
         }
     }
 }

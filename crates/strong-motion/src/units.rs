@@ -23,16 +23,46 @@ pub enum Units {
     /// mm/s2.
     #[serde(rename = "mm/s2")]
     MillimetrePerSecond2,
+    /// A thousandth of gravity.
+    #[serde(rename = "mg")]
+    MilliG,
+    /// A hundredth of gravity.
+    #[serde(rename = "%g")]
+    PercentG,
+    /// ft/s2, of the international foot, 0.3048 m.
+    #[serde(rename = "ft/s2")]
+    FootPerSecond2,
+    /// in/s2, of the inch of 0.0254 m.
+    #[serde(rename = "in/s2")]
+    InchPerSecond2,
+    /// A thousandth of a gal, 1e-5 m/s2.
+    #[serde(rename = "mGal")]
+    MilliGal,
 }
+
+/// All units, for messages.
+pub(super) const KNOWN: &str = "g, m/s2, cm/s2 (gal), mm/s2, mg, %g, ft/s2, in/s2 or mGal";
 
 /// A unit that is not known.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("unit '{text}' is not known; use g, m/s2, cm/s2 (gal) or mm/s2")]
+#[error("unit '{text}' is not known; use {KNOWN}")]
 pub struct UnitsError {
     text: String,
 }
 
 impl Units {
+    const ALL: [Self; 9] = [
+        Self::G,
+        Self::MetrePerSecond2,
+        Self::CentimetrePerSecond2,
+        Self::MillimetrePerSecond2,
+        Self::MilliG,
+        Self::PercentG,
+        Self::FootPerSecond2,
+        Self::InchPerSecond2,
+        Self::MilliGal,
+    ];
+
     /// How many m/s2 one unit is.
     pub fn metres_per_second2(self) -> f64 {
         match self {
@@ -40,6 +70,11 @@ impl Units {
             Self::MetrePerSecond2 => 1.0,
             Self::CentimetrePerSecond2 => 0.01,
             Self::MillimetrePerSecond2 => 0.001,
+            Self::MilliG => GRAVITY / 1000.0,
+            Self::PercentG => GRAVITY / 100.0,
+            Self::FootPerSecond2 => 0.3048,
+            Self::InchPerSecond2 => 0.0254,
+            Self::MilliGal => 1e-5,
         }
     }
 }
@@ -51,6 +86,11 @@ impl fmt::Display for Units {
             Self::MetrePerSecond2 => "m/s2",
             Self::CentimetrePerSecond2 => "cm/s2",
             Self::MillimetrePerSecond2 => "mm/s2",
+            Self::MilliG => "mg",
+            Self::PercentG => "%g",
+            Self::FootPerSecond2 => "ft/s2",
+            Self::InchPerSecond2 => "in/s2",
+            Self::MilliGal => "mGal",
         })
     }
 }
@@ -72,6 +112,11 @@ impl FromStr for Units {
             "m/s2" | "m/s/s" => Ok(Self::MetrePerSecond2),
             "cm/s2" | "cm/s/s" | "gal" => Ok(Self::CentimetrePerSecond2),
             "mm/s2" | "mm/s/s" => Ok(Self::MillimetrePerSecond2),
+            "mg" => Ok(Self::MilliG),
+            "%g" => Ok(Self::PercentG),
+            "ft/s2" | "ft/s/s" => Ok(Self::FootPerSecond2),
+            "in/s2" | "in/s/s" => Ok(Self::InchPerSecond2),
+            "mgal" => Ok(Self::MilliGal),
             _ => Err(UnitsError { text: super::text::quote(text) }),
         }
     }
@@ -104,12 +149,7 @@ pub(super) fn declared(header: &[(usize, &str)], column_names: Option<&str>) -> 
 fn mentioned(lines: impl Iterator<Item = String>) -> Vec<Units> {
     let mut found = Vec::new();
     for line in lines {
-        for units in [
-            Units::G,
-            Units::MetrePerSecond2,
-            Units::CentimetrePerSecond2,
-            Units::MillimetrePerSecond2,
-        ] {
+        for units in Units::ALL {
             if mentions(&line, units) && !found.contains(&units) {
                 found.push(units);
             }
@@ -130,8 +170,18 @@ pub(super) fn normalised(text: &str) -> String {
 
 fn mentions(line: &str, units: Units) -> bool {
     let metric = ["m/s2", "m/s/s", "m s-2", "m.s-2", "ms-2", "ms2", "mps2", "m/per/s2"];
+    let of_g = |name| occurrences(line, name).any(|(before, after)| g_is_a_unit(before, after));
+    let by_time = |of: &str| metric.iter().any(|name| is_unit(line, &name.replacen('m', of, 1)));
     match units {
-        Units::G => occurrences(line, "g").any(|(before, after)| g_is_a_unit(before, after)),
+        Units::G => of_g("g"),
+        Units::MilliG => of_g("mg"),
+        // a line that begins with it is a comment about g
+        Units::PercentG => occurrences(line, "%g")
+            .chain(occurrences(line, "% g"))
+            .any(|(before, after)| !before.trim().is_empty() && g_is_a_unit(before, after)),
+        Units::FootPerSecond2 => by_time("ft") || is_unit(line, "fps2"),
+        Units::InchPerSecond2 => by_time("in") || is_unit(line, "ips2"),
+        Units::MilliGal => is_unit(line, "mgal") || is_unit(line, "mgals"),
         Units::MetrePerSecond2 => metric.iter().any(|name| is_unit(line, name)),
         Units::CentimetrePerSecond2 => {
             is_unit(line, "gal")
@@ -178,7 +228,10 @@ pub(super) fn occurrences<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use Units::{CentimetrePerSecond2 as Cm, G, MetrePerSecond2 as M, MillimetrePerSecond2 as Mm};
+    use Units::{
+        CentimetrePerSecond2 as Cm, FootPerSecond2, G, InchPerSecond2, MetrePerSecond2 as M,
+        MilliG, MilliGal, MillimetrePerSecond2 as Mm, PercentG,
+    };
 
     fn of_header(line: &str) -> Option<Units> {
         declared(&[(1, line)], None)
@@ -211,7 +264,13 @@ mod tests {
             ("t,acc_g", Some(G)),
             ("t\tacc [m/s^2]", Some(M)),
             ("time,acceleration", None),
-            ("t [s],a [%g]", None),
+            ("t [s],a [%g]", Some(PercentG)),
+            ("time (s) acc (mg)", Some(MilliG)),
+            ("time (s) acc (ft/s2)", Some(FootPerSecond2)),
+            ("Time(s)\tAcc(in/s2)", Some(InchPerSecond2)),
+            ("t [s],a [in/sec^2]", Some(InchPerSecond2)),
+            ("time (s) acc (mGal)", Some(MilliGal)),
+            ("t [s],a [furlong/s2]", None),
             ("t [s],a [mm/s2]", Some(Mm)),
             ("t [s],v [m/s]", None),
         ] {
@@ -223,6 +282,8 @@ mod tests {
     fn a_quantity_with_a_unit_is_no_declaration() {
         assert_eq!(of_header("peak acceleration 341.7 cm/s2, station G"), None);
         assert_eq!(of_header("acceleration, g = 9.81 m/s2"), None);
+        assert_eq!(of_header("acceleration, peak 120 mg"), None);
+        assert_eq!(of_header("% g of the acceleration"), None);
     }
 
     #[test]
@@ -233,7 +294,7 @@ mod tests {
 
     #[test]
     fn units_are_parsed_and_printed_alike() {
-        for units in [G, M, Cm, Mm] {
+        for units in Units::ALL {
             assert_eq!(units.to_string().parse(), Ok(units));
             assert_eq!(serde_json::to_string(&units).unwrap(), format!("\"{units}\""));
         }
@@ -243,6 +304,31 @@ mod tests {
         }
         assert_eq!("gal".parse(), Ok(Cm));
         assert_eq!("M/S^2".parse(), Ok(M));
-        assert!("ft/s2".parse::<Units>().unwrap_err().to_string().contains("ft/s2"));
+        for text in ["ft/min2", "kg", "mm"] {
+            let said = text.parse::<Units>().unwrap_err().to_string();
+            assert!(
+                said.starts_with(&format!("unit '{text}' is not known; use g, m/s2")),
+                "{said}"
+            );
+        }
+    }
+
+    /// By the definitions: foot and inch of 1959, gal of 0.01 m/s2; g is the project's, 9.81 m/s2.
+    #[test]
+    fn units_are_as_large_as_their_definitions_say() {
+        for (text, metres) in [
+            ("g", 9.81),
+            ("mg", 0.00981),
+            ("%g", 0.0981),
+            ("m/s2", 1.0),
+            ("gal", 0.01),
+            ("mGal", 1e-5),
+            ("mm/s2", 1e-3),
+            ("ft/s2", 0.3048),
+            ("in/s2", 0.3048 / 12.0),
+        ] {
+            let found = text.parse::<Units>().unwrap().metres_per_second2();
+            assert!((found / metres - 1.0).abs() < 1e-15, "{text}: {found}");
+        }
     }
 }

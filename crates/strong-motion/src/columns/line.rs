@@ -15,11 +15,41 @@ pub(super) fn fields(content: &str) -> Vec<&str> {
         }
         None => content.split_whitespace().map(|field| field.trim_matches('"')).collect(),
     };
-    // a separator at the end of the line opens no column
-    if fields.len() > 1 && fields.last().is_some_and(|field| clean(field) == 0) {
+    // separators at the end of the line open no columns
+    while fields.len() > 1 && fields.last().is_some_and(|field| clean(field) == 0) {
         fields.pop();
     }
     fields
+}
+
+/// How many columns the separators at the end of a line would open.
+pub(super) fn blank_fields(content: &str) -> usize {
+    let separator = [';', ','].into_iter().find(|&c| content.contains(c));
+    separator
+        .map_or(0, |c| content.split(c).rev().take_while(|field| field.trim().is_empty()).count())
+}
+
+/// The names between blanks, each with what follows it in brackets: `time (s) acc (g)` are two.
+pub(super) fn bracketed(line: &str) -> Vec<&str> {
+    let mut names: Vec<&str> = Vec::new();
+    let mut from = 0;
+    for word in line.split_whitespace() {
+        // the words of a line stand in it in this order
+        let at = line[from..].find(word).map_or(from, |at| from + at);
+        let end = at + word.len();
+        let open = |name: &str| name.contains(['(', '[']) && !name.ends_with([')', ']']);
+        let last = names.last().copied();
+        match last.filter(|last| word.starts_with(['(', '[']) || open(last)) {
+            Some(last) => {
+                let begin = from - last.len();
+                names.pop();
+                names.push(&line[begin..end]);
+            }
+            None => names.push(&line[at..end]),
+        }
+        from = end;
+    }
+    names
 }
 
 /// Several tokens (between semicolons or blanks), all of them like `0,01`.
@@ -34,6 +64,17 @@ pub(super) fn has_decimal_commas(content: &str) -> bool {
         commas += usize::from(decimal(token));
         decimal(token) && !token.starts_with(',') && !token.ends_with(',') || plain(token)
     }) && commas > 0
+}
+
+/// Whether a line of whole numbers between commas is one of decimals between commas, `0,0100,0,25`:
+/// pairs, of which there are as many as names, or a second number that begins with a zero.
+pub(super) fn pairs_are_decimals(content: &str, names: Option<&str>) -> bool {
+    let parts: Vec<&str> = content.split(',').map(str::trim).collect();
+    let names = names.map_or(0, |line| fields(line).len());
+    let zero = |part: &&&str| part.len() > 1 && part.starts_with('0');
+    parts.len().is_multiple_of(2)
+        && parts.len() > 2
+        && (2 * names == parts.len() || parts.iter().skip(1).step_by(2).any(|part| zero(&part)))
 }
 
 /// A line right above the data that begins with a number and has as many fields is data gone wrong,
@@ -66,6 +107,17 @@ mod tests {
         assert_eq!(fields("0.01\t 0.5"), ["0.01", "0.5"]);
         assert_eq!(fields("\"0.01\",\"0.5\""), ["0.01", "0.5"]);
         assert_eq!(fields("0.01,,0.5"), ["0.01", "", "0.5"]);
+        assert_eq!(fields("0.01,0.5,,"), ["0.01", "0.5"]);
+        assert_eq!(["0.01,0.5,,", "0.01;0.5", "1 2 "].map(blank_fields), [2, 0, 0]);
+    }
+
+    #[test]
+    fn a_unit_in_brackets_belongs_to_the_name_before_it() {
+        assert_eq!(bracketed("time (s) a (g)  v (m/s)"), ["time (s)", "a (g)", "v (m/s)"]);
+        assert_eq!(bracketed("t\ta [in / s2] b"), ["t", "a [in / s2]", "b"]);
+        assert_eq!(bracketed("time acc"), ["time", "acc"]);
+        assert_eq!(bracketed("(s) (g)"), ["(s) (g)"]);
+        assert_eq!(bracketed(""), Vec::<&str>::new());
     }
 
     #[test]
@@ -75,5 +127,9 @@ mod tests {
         assert!(has_decimal_commas("0;0,002"));
         assert!(!has_decimal_commas("0.01, 0.002"));
         assert!(!has_decimal_commas("time, acc"));
+        assert!(pairs_are_decimals("0,0100,-0,00000167", None));
+        assert!(pairs_are_decimals("1,25,3,5", Some("time [s],acc [g]")));
+        assert!(!pairs_are_decimals("1,25,3,5", Some("t,a,b,c")));
+        assert!(!pairs_are_decimals("1,25,3", Some("t,a,b")));
     }
 }
