@@ -147,8 +147,12 @@ impl<'de> Deserialize<'de> for StructureKey {
 
 /// A number, unless its key says again what another has said.
 struct Number {
+    key: &'static str,
     clash: Option<String>,
 }
+
+/// Keys whose numbers are checked as they are, by [`Structure::checked`], which knows no other.
+const CHECKED_LATER: [&str; 3] = ["height_m", "width_m", "mass_kg"];
 
 impl<'de> DeserializeSeed<'de> for Number {
     type Value = f64;
@@ -156,7 +160,16 @@ impl<'de> DeserializeSeed<'de> for Number {
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<f64, D::Error> {
         match self.clash {
             Some(clash) => Err(D::Error::custom(clash)),
-            None => f64::deserialize(deserializer),
+            None => {
+                let value = f64::deserialize(deserializer)?;
+                let key = self.key;
+                if CHECKED_LATER.contains(&key) || value.is_finite() && value > 0.0 {
+                    return Ok(value);
+                }
+                Err(D::Error::custom(format!(
+                    "{key} is {value:?}; give a finite number greater than zero"
+                )))
+            }
         }
     }
 }
@@ -196,7 +209,7 @@ impl<'de> Visitor<'de> for Keys {
                         }
                     });
                     given[quantity as usize] =
-                        Some((key, unit * map.next_value_seed(Number { clash })?));
+                        Some((key, unit * map.next_value_seed(Number { key, clash })?));
                 }
             }
         }
@@ -317,6 +330,24 @@ mod tests {
             ];
             assert!(pairs.iter().all(|(a, b)| (a / b - 1.0).abs() < 1e-9), "{given}: {found:?}");
         }
+    }
+
+    #[test]
+    fn a_number_below_zero_is_refused_by_the_key_that_was_written() {
+        let rest = "width_m = 0.5\nmass_kg = 300.0\n";
+        for (line, said) in [
+            ("total_height_m = -1.7", "total_height_m is -1.7"),
+            ("total_height_in = 0.0", "total_height_in is 0.0"),
+            ("height_ft = -3", "height_ft is -3.0"),
+            ("height_in = nan", "height_in is NaN"),
+        ] {
+            let message = structure(&format!("kind = \"block\"\n{line}\n{rest}")).unwrap_err();
+            let whole =
+                format!("case.toml, line 3: {said}; give a finite number greater than zero");
+            assert_eq!(message, whole);
+        }
+        let message = structure("kind = \"block\"\nheight_m = -1.7\nwidth_m = 1\nmass_t = 1\n");
+        assert!(message.unwrap_err().contains("line 3: structure: height_m is -1.7; give a"));
     }
 
     #[test]
