@@ -32,7 +32,7 @@ class Record:
     dt     time step, s
     accel  ground acceleration at t = i dt, positive to the right, in `units`: one row of real numbers
     name   what it is called
-    units  of accel: "m/s2", "g" (9.81 m/s2), "cm/s2" or "mm/s2"
+    units  of accel: "m/s2", "g" (9.81 m/s2), "cm/s2", "mm/s2", "mg", "%g", "ft/s2", "in/s2" or "mGal"
 
     A time step of 0.05 s and more, and peaks that no earthquake has (above 5 g or 3 m/s, below
     1e-4 g), are a GroundspringWarning.
@@ -47,7 +47,7 @@ class Record:
         accel: _Numbers,
         name: str = "record",
         *,
-        units: Literal["m/s2", "g", "cm/s2", "mm/s2"] | str = "m/s2",
+        units: Literal["m/s2", "g", "cm/s2", "mm/s2", "mg", "%g", "ft/s2", "in/s2", "mGal"] | str = "m/s2",
     ) -> Record: ...
     @property
     def name(self) -> str:
@@ -73,12 +73,17 @@ class Record:
     @property
     def vertical(self) -> Record | None:
         """The vertical ground acceleration that goes with it, positive upwards."""
-    def with_vertical(self, up: Record) -> Record:
-        """The record with a vertical ground acceleration at the same times, positive upwards."""
+    def with_vertical(self, up: Record | _Numbers) -> Record:
+        """The record with a vertical ground acceleration at the same times, positive upwards: a Record, or a row of
+        numbers, m/s2.
+        """
     def scaled(self, factor: float) -> Record:
         """Every acceleration times a factor, the vertical ones too."""
     def truncated(self, duration: float) -> Record:
-        """The samples up to this time, s; at least the first."""
+        """The samples up to this time, s; at least the first.
+
+        ValueError: no time above zero.
+        """
     def __len__(self) -> int: ...
     def plot(self, axes: Axes | None = None) -> Axes:
         """Ground acceleration, g, over time, s, with the vertical one if there is one."""
@@ -94,15 +99,17 @@ def read_record(
     path: _Path,
     component: str | float | None = None,
     dt: float | None = None,
-    units: Literal["g", "m/s2", "cm/s2", "mm/s2"] | str | None = None,
+    units: Literal["g", "m/s2", "cm/s2", "mm/s2", "mg", "%g", "ft/s2", "in/s2", "mGal"] | str | None = None,
     baseline: bool = False,
     vertical: _Path | None = None,
+    column: str | int | None = None,
 ) -> Record:
     """The record in a file: PEER AT2, GeoNet, COSMOS, CSMIP, K-NET, ESM or columns.
 
     component  name or azimuth in degrees, of a file with several; the stronger horizontal one unless given
-    dt, units  where the file does not say: s; g, m/s2, cm/s2 or mm/s2
+    dt, units  where the file does not say: s; "g", "m/s2" or another unit that `Record` takes
     baseline   subtract the mean of the samples
+    column     of a table of several: its number, from 1 with the times, or its name
     vertical   the file of the vertical component, or "auto": that of the same file; none unless given
 
     ValueError: the file cannot be read, is no record, is damaged, or does not agree with what is said of it.
@@ -114,6 +121,8 @@ def el_centro() -> Record:
 @final
 class Structure:
     """A rigid body on two feet. Made by `aframe` or `block`.
+
+    Numbers that no structure has (a mean density of air, a height of a kilometre) are a GroundspringWarning.
 
     ValueError: numbers that cannot rock.
     """
@@ -300,6 +309,9 @@ class Histories:
     @property
     def peak_ratio(self) -> _Array:
         """Largest |theta|/alpha of each, without unit; pi/2 / alpha where the body overturned."""
+    @property
+    def outcome(self) -> list[str]:
+        """How each ended."""
     @property
     def overturned(self) -> npt.NDArray[np.bool_]:
         """Whether each overturned."""
@@ -539,7 +551,8 @@ def tune(
     method          "landing": by the geometry; "arr": the paper's procedure, on the record
     scale           factor on the record
     duration        of the record, s; all of it unless given
-    max_hz          stiffest springs, Omega_n/2 pi, Hz, for programs with fixed time steps
+    max_hz          stiffest springs, Omega_n/2 pi, Hz; not for programs with steps of one size, whose springs
+                    `tune run --for` finds
     max_settlement  of the standing body, m
     friction        coefficient of the ground, without unit, for the warning of sliding
     front           error against stiffness, too

@@ -7,6 +7,7 @@ from typing import Any
 
 from ._native import (
     Design,
+    GroundspringWarning,
     Histories,
     History,
     Record,
@@ -34,10 +35,13 @@ def record(dt: float, accel: Any, name: str, vertical: Record | None) -> Record:
 
 
 def structure(kind: str, height: float, width: float, mass: float, inertia: float, restitution: float) -> Structure:
-    if kind == "block":
-        # by its whole height
-        return Structure.block(2.0 * height, width, mass, inertia, restitution)
-    return Structure.aframe(height, width, mass, inertia, restitution)
+    with warnings.catch_warnings():
+        # told when it was made
+        warnings.simplefilter("ignore", GroundspringWarning)
+        if kind == "block":
+            # by its whole height
+            return Structure.block(2.0 * height, width, mass, inertia, restitution)
+        return Structure.aframe(height, width, mass, inertia, restitution)
 
 
 def design(alpha: float, mass_share: float, stiffness: float) -> Design:

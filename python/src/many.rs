@@ -10,9 +10,10 @@ use std::sync::{
 
 use numpy::PyArray1;
 use pyo3::{
-    exceptions::PyKeyError,
+    PyClass,
+    exceptions::{PyKeyError, PyTypeError},
     prelude::*,
-    types::{PyCapsule, PyList},
+    types::{PyCapsule, PyList, PySequence, PyString},
 };
 use rocking::{
     housner::{self, Rocking, RockingOptions},
@@ -22,7 +23,7 @@ use rocking::{
 
 use crate::{
     arrow::{ArrowArrayStream, Column, Columns},
-    numbers::{self, factors, ratio},
+    numbers::{self, a_kind, factors, ratio},
     record::{Record, checked_scales},
     rocking::{Solved, ended},
     said::value_error,
@@ -305,10 +306,47 @@ fn beside(
 }
 
 /// One or several.
-#[derive(FromPyObject)]
 pub enum Several<T> {
     One(T),
     Many(Vec<T>),
+}
+
+impl<'py, T> FromPyObject<'_, 'py> for Several<T>
+where
+    T: PyClass + Clone,
+{
+    type Error = PyErr;
+
+    fn extract(of: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(one) = of.cast::<T>() {
+            return Ok(Self::One(one.borrow().clone()));
+        }
+        let give = format!("give a {}, or a list of them", <T as PyClass>::NAME);
+        several_of(&of, "", &give).map(Self::Many)
+    }
+}
+
+/// All items of a list of one kind, which may have a name; `give` says what to give if it is none.
+pub fn several_of<T: PyClass + Clone>(
+    of: &Bound<'_, PyAny>,
+    name: &str,
+    give: &str,
+) -> PyResult<Vec<T>> {
+    let refused = |what: String, found: &Bound<'_, PyAny>| {
+        PyTypeError::new_err(format!("{what} is {}; {give}", a_kind(found)))
+    };
+    let whole = || if name.is_empty() { "the argument".to_owned() } else { name.to_owned() };
+    let list = of.cast::<PySequence>().map_err(|_| refused(whole(), of))?;
+    if of.is_instance_of::<PyString>() {
+        return Err(refused(whole(), of));
+    }
+    let item = |(i, item): (usize, PyResult<Bound<'_, PyAny>>)| {
+        let item = item?;
+        let one = item.cast::<T>().map(|one| one.borrow().clone());
+        let at = if name.is_empty() { format!("item {i}") } else { format!("{name}[{i}]") };
+        one.map_err(|_| refused(at, &item))
+    };
+    list.try_iter()?.enumerate().map(item).collect()
 }
 
 impl<T> Several<T> {

@@ -2,7 +2,7 @@
 //! real numbers is refused, with what to pass instead.
 
 use numpy::{PyArray1, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
-use pyo3::{prelude::*, types::PyDict};
+use pyo3::{exceptions::PyTypeError, prelude::*, types::PyDict};
 
 use cases::LONGEST_S;
 
@@ -59,6 +59,24 @@ pub fn row(of: &Bound<'_, PyAny>, name: &str, what: &str) -> PyResult<Vec<f64>> 
     options.set_item("dtype", "float64")?;
     let array = numpy.call_method("ascontiguousarray", (array,), Some(&options))?;
     Ok(array.cast::<PyArray1<f64>>()?.to_vec()?)
+}
+
+/// A number called `name`; `what` it is, with its unit.
+pub fn real(of: &Bound<'_, PyAny>, name: &str, what: &str) -> PyResult<f64> {
+    of.extract().map_err(|_| {
+        let found = a_kind(of);
+        PyTypeError::new_err(format!("{name} is {found}; give a number, {what}"))
+    })
+}
+
+/// "'0.01', a str"; what is longer is named by its kind alone.
+pub fn a_kind(of: &Bound<'_, PyAny>) -> String {
+    let kind = of.get_type().name().map_or_else(|_| "object".to_owned(), |name| name.to_string());
+    let vowel = kind.to_ascii_lowercase().starts_with(['a', 'e', 'i', 'o', 'u']);
+    let article = if vowel || kind == "ndarray" { "an" } else { "a" };
+    let shown = of.repr().map_or_else(|_| String::new(), |text| text.to_string());
+    let short = !shown.is_empty() && shown.len() <= 40 && !shown.contains(char::is_control);
+    if short { format!("{shown}, {article} {kind}") } else { format!("{article} {kind}") }
 }
 
 /// A number, or a row of them.

@@ -5,11 +5,11 @@ use std::{borrow::Cow, path::PathBuf};
 use cases::NO_MOTION;
 use pyo3::prelude::*;
 use strong_motion as core;
-use strong_motion::{Recording, Units};
+use strong_motion::{Recording, TableColumn, Units};
 
 use crate::{
     Array, numbers,
-    said::{value_error, warn},
+    said::{shown, value_error, value_error_of, warn_of_file},
     structure::hashed,
     times, view,
 };
@@ -46,7 +46,8 @@ pub fn at_scale(record: Cow<'_, core::Record>, scale: f64) -> PyResult<Cow<'_, c
 /// accel  ground acceleration at t = i dt, positive to the right, in `units`: one row of real
 ///        numbers
 /// name   what it is called
-/// units  of accel: "m/s2", "g" (9.81 m/s2), "cm/s2" or "mm/s2"
+/// units  of accel: "m/s2", "g" (9.81 m/s2), "cm/s2", "mm/s2", "mg", "%g", "ft/s2", "in/s2" or
+///        "mGal"
 ///
 /// A time step of 0.05 s and more, and peaks that no earthquake has (above 5 g or 3 m/s, below
 /// 1e-4 g), are a GroundspringWarning.
@@ -71,23 +72,25 @@ impl Record {
     #[pyo3(signature = (dt, accel, name = "record", *, units = "m/s2"))]
     fn new(
         py: Python<'_>,
-        dt: f64,
+        dt: &Bound<'_, PyAny>,
         accel: &Bound<'_, PyAny>,
         name: &str,
         units: &str,
     ) -> PyResult<Self> {
         let factor = units.parse::<Units>().map_err(value_error)?.metres_per_second2();
+        let dt = numbers::real(dt, "dt", "the time step in s")?;
         let mut accel =
             numbers::row(accel, "accel", "accelerations in m/s2, or in the units that are named")?;
         if factor != 1.0 {
             accel.iter_mut().for_each(|a| *a *= factor);
         }
-        let record = core::Record::new(name, dt, accel).map_err(value_error)?;
+        let record =
+            core::Record::new(name, dt, accel).map_err(|error| value_error_of(error, &[name]))?;
         // a slow push that is made of numbers may end with any velocity
         let doubtful = core::notices(&record, name, "").into_iter();
         doubtful
             .filter(|notice| !matches!(notice, core::Notice::Fast { .. }))
-            .try_for_each(|notice| warn(py, &notice))?;
+            .try_for_each(|notice| warn_of_file(py, &notice, &[name]))?;
         Ok(Self(record))
     }
 
@@ -139,9 +142,17 @@ impl Record {
         self.0.vertical.as_ref().map(|up| Self(core::as_record(up, self.0.dt)))
     }
 
-    /// The record with a vertical ground acceleration at the same times, positive upwards.
-    fn with_vertical(&self, up: &Self) -> PyResult<Self> {
-        Ok(Self(self.beside(Some(up))?.into_owned()))
+    /// The record with a vertical ground acceleration at the same times, positive upwards: a
+    /// Record, or a row of numbers, m/s2.
+    fn with_vertical(&self, up: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let up = match up.cast::<Self>() {
+            Ok(record) => record.get().clone(),
+            Err(_) => {
+                let accel = numbers::row(up, "up", "a Record, or accelerations in m/s2")?;
+                Self(core::Record::new("up", self.0.dt, accel).map_err(value_error)?)
+            }
+        };
+        Ok(Self(self.beside(Some(&up))?.into_owned()))
     }
 
     /// Every acceleration times a factor, the vertical ones too.
@@ -150,8 +161,15 @@ impl Record {
     }
 
     /// The samples up to this time, s; at least the first.
-    fn truncated(&self, duration: f64) -> Self {
-        Self(self.0.truncated(duration))
+    ///
+    /// ValueError: no time above zero.
+    fn truncated(&self, duration: f64) -> PyResult<Self> {
+        if duration.is_nan() || duration <= 0.0 {
+            return Err(value_error(format!(
+                "truncated: duration is {duration:?}; give seconds greater than zero"
+            )));
+        }
+        Ok(Self(self.0.truncated(duration)))
     }
 
     /// Ground acceleration, g, over time, s, with the vertical one if there is one.
@@ -203,8 +221,9 @@ impl Record {
 ///
 /// component  name or azimuth in degrees, of a file with several; the stronger horizontal one
 ///            unless given
-/// dt, units  where the file does not say: s; g, m/s2, cm/s2 or mm/s2
+/// dt, units  where the file does not say: s; "g", "m/s2" or another unit that `Record` takes
 /// baseline   subtract the mean of the samples
+/// column     of a table of several: its number, from 1 with the times, or its name
 /// vertical   the file of the vertical component, or "auto": that of the same file; none unless
 ///            given
 ///
@@ -212,7 +231,8 @@ impl Record {
 /// is said of it.
 #[pyfunction]
 #[pyo3(signature = (path, component = None, dt = None, units = None, baseline = false,
-    vertical = None))]
+    vertical = None, column = None))]
+#[allow(clippy::too_many_arguments)]
 pub fn read_record(
     py: Python<'_>,
     path: PathBuf,
@@ -221,15 +241,36 @@ pub fn read_record(
     units: Option<&str>,
     baseline: bool,
     vertical: Option<PathBuf>,
+    column: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Record> {
     let units = units.map(str::parse::<Units>).transpose().map_err(value_error)?;
     // an azimuth may be given as a number
     let component =
         component.map(|component| component.str().map(|s| s.to_string())).transpose()?;
+    let column = column.map(|column| column.str().map(|s| s.to_string())).transpose()?;
+    let component = match (component, column) {
+        (Some(_), Some(_)) => {
+            return Err(value_error("read_record: give component or column, not both"));
+        }
+        (component, None) => component,
+        (None, Some(column)) => {
+            let column: TableColumn = match column.parse() {
+                Ok(column) => column,
+                Err(never) => match never {},
+            };
+            Some(column.component())
+        }
+    };
+    let up = vertical.clone();
     let options =
         core::ReadOptions { dt, units, component, baseline, vertical: vertical.map(Into::into) };
-    let recording = py.detach(|| Recording::read(&path, &options)).map_err(value_error)?;
-    recording.notices().iter().try_for_each(|notice| warn(py, notice))?;
+    let names = [shown(&path), up.as_deref().map_or_else(String::new, shown)];
+    let names: Vec<&str> =
+        names.iter().map(String::as_str).filter(|name| *name != "auto").collect();
+    let recording = py
+        .detach(|| Recording::read(&path, &options))
+        .map_err(|error| value_error_of(error, &names))?;
+    recording.notices().iter().try_for_each(|notice| warn_of_file(py, notice, &names))?;
     Ok(Record(recording.into_record()))
 }
 

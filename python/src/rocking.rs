@@ -243,6 +243,12 @@ impl Histories {
         PyArray1::from_iter(py, self.0.iter().map(Solved::peak_ratio))
     }
 
+    /// How each ended.
+    #[getter]
+    fn outcome(&self) -> Vec<&'static str> {
+        self.0.iter().map(|solved| ended(&solved.rocking.outcome)).collect()
+    }
+
     /// Whether each overturned.
     #[getter]
     fn overturned<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {

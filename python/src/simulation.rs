@@ -303,6 +303,7 @@ pub fn simulate(
 ) -> PyResult<Simulation> {
     let e = ratio(restitution)?.unwrap_or(structure.e);
     let record = at_scale(record.beside(vertical)?, scale)?;
+    springs.check_mass(py, "simulate", &structure)?;
     let inputs =
         (structure, springs, Record(record.clone().into_owned()), e, friction).into_pyobject(py)?;
     let simulation = interruptible(py, |_| {

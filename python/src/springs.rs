@@ -10,9 +10,12 @@ use pyo3::prelude::*;
 use springs::elastic::design;
 
 use crate::{
-    said::value_error,
+    said::{shown, value_error, value_error_of, warn},
     structure::{Structure, hashed},
 };
+
+/// Springs are not doubted for a mass that differs by less than this share, as `add_feet` has it.
+const OTHER_MASS: f64 = 0.03;
 
 /// One spring-absorber unit: foot - gap, k1 - absorber m2 - (k2 parallel with dashpot c) -
 /// ground.
@@ -114,6 +117,21 @@ impl Springs {
         }
     }
 
+    /// Warn if they are for a structure of another mass.
+    pub fn check_mass(&self, py: Python<'_>, who: &str, structure: &Structure) -> PyResult<()> {
+        let (own, given) = (self.mass, structure.core.mass_kg);
+        if (own / given - 1.0).abs() <= OTHER_MASS {
+            return Ok(());
+        }
+        warn(
+            py,
+            format!(
+                "{who}: the springs are for a structure of {own} kg, this one has {given} kg; give \
+                 those of gs.tune(structure)"
+            ),
+        )
+    }
+
     pub fn of(mass: f64, designs: &spring::Springs<spring::Design<f64>>) -> Self {
         let spring::Springs { vertical, horizontal } = designs.chains(mass);
         Self { mass, vertical: Chain(vertical), horizontal: Chain(horizontal) }
@@ -212,7 +230,8 @@ impl Springs {
 /// The structure and the springs of a `parameters.json`.
 #[pyfunction]
 pub fn read_parameters(path: PathBuf) -> PyResult<(Structure, Springs)> {
-    let parameters = Parameters::read(&path).map_err(value_error)?;
+    let parameters =
+        Parameters::read(&path).map_err(|error| value_error_of(error, &[&shown(&path)]))?;
     let spring::Springs { vertical, horizontal } = parameters.chains();
     let structure = Structure { core: parameters.structure, e: parameters.restitution() };
     let mass = parameters.structure.mass_kg;

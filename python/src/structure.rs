@@ -6,9 +6,15 @@ use cases::StructureSection;
 use pyo3::prelude::*;
 use rocking::structure::{Body, Kind, Structure as Core};
 
-use crate::said::value_error;
+use crate::{
+    numbers::real,
+    said::{value_error, warn},
+};
 
 /// A rigid body on two feet. Made by `aframe` or `block`.
+///
+/// Numbers that no structure has (a mean density of air, a height of a kilometre) are a
+/// GroundspringWarning.
 ///
 /// ValueError: numbers that cannot rock.
 #[pyclass(frozen, eq, from_py_object, module = "groundspring")]
@@ -46,13 +52,14 @@ impl Structure {
     #[staticmethod]
     #[pyo3(signature = (height, width, mass, inertia = None, restitution = None))]
     fn aframe(
-        height: f64,
-        width: f64,
-        mass: f64,
+        height: &Bound<'_, PyAny>,
+        width: &Bound<'_, PyAny>,
+        mass: &Bound<'_, PyAny>,
         inertia: Option<f64>,
         restitution: Option<f64>,
     ) -> PyResult<Self> {
-        checked("Structure.aframe", Kind::AFrame, (height, width, mass), inertia, restitution)
+        let given = lengths_and_mass(height, width, mass)?;
+        checked(height.py(), ("Structure.aframe", Kind::AFrame), given, inertia, restitution)
     }
 
     /// A solid block.
@@ -65,13 +72,22 @@ impl Structure {
     #[staticmethod]
     #[pyo3(signature = (height, width, mass, inertia = None, restitution = None))]
     fn block(
-        height: f64,
-        width: f64,
-        mass: f64,
+        height: &Bound<'_, PyAny>,
+        width: &Bound<'_, PyAny>,
+        mass: &Bound<'_, PyAny>,
         inertia: Option<f64>,
         restitution: Option<f64>,
     ) -> PyResult<Self> {
-        checked("Structure.block", Kind::Block, (height / 2.0, width, mass), inertia, restitution)
+        let (whole, width_m, mass_kg) = lengths_and_mass(height, width, mass)?;
+        // the crate speaks of half of it
+        if !(whole.is_finite() && whole > 0.0) {
+            return Err(value_error(format!(
+                "Structure.block: height is {whole:?}; give a finite number greater than zero, \
+                 of the whole block, m"
+            )));
+        }
+        let given = (whole / 2.0, width_m, mass_kg);
+        checked(height.py(), ("Structure.block", Kind::Block), given, inertia, restitution)
     }
 
     /// "aframe" or "block".
@@ -158,9 +174,19 @@ impl Structure {
     }
 }
 
+/// The three numbers of every structure.
+fn lengths_and_mass(
+    height: &Bound<'_, PyAny>,
+    width: &Bound<'_, PyAny>,
+    mass: &Bound<'_, PyAny>,
+) -> PyResult<(f64, f64, f64)> {
+    Ok((real(height, "height", "m")?, real(width, "width", "m")?, real(mass, "mass", "kg")?))
+}
+
+/// The structure; what is to be looked at again of it is a warning.
 fn checked(
-    name: &str,
-    kind: Kind,
+    py: Python<'_>,
+    (name, kind): (&str, Kind),
     (height_m, width_m, mass_kg): (f64, f64, f64),
     rotational_inertia_kgm2: Option<f64>,
     restitution: Option<f64>,
@@ -176,5 +202,10 @@ fn checked(
         restitution_ratio,
         height_key,
     };
-    section.checked(name).map(|(core, e)| Structure { core, e }).map_err(value_error)
+    let (core, e) = section.checked(name).map_err(value_error)?;
+    for doubt in section.doubts(&core) {
+        // arguments have no unit in their names
+        warn(py, format!("{name}: {doubt}").replace("mass_kg", "mass"))?;
+    }
+    Ok(Structure { core, e })
 }

@@ -12,7 +12,7 @@ use strong_motion::excitation::of_record;
 use crate::{
     numbers::seconds,
     record::Record,
-    said::{one_line, plain, value_error, warn_of},
+    said::{one_line, plain, shown, value_error, value_error_of, warn_of},
     simulation::Simulation,
     springs::Springs,
     structure::Structure,
@@ -92,7 +92,7 @@ impl Tuned {
     fn save(&self, py: Python<'_>, folder: PathBuf, figures: bool) -> PyResult<Vec<String>> {
         let left_out =
             interruptible(py, |_| save(&self.run, &folder, Output { figures, report: true }))?;
-        left_out.map_err(value_error)
+        left_out.map_err(|error| value_error_of(error, &[&shown(&folder)]))
     }
 
     /// Those of its histories.
@@ -150,7 +150,8 @@ impl Tuned {
 /// method          "landing": by the geometry; "arr": the paper's procedure, on the record
 /// scale           factor on the record
 /// duration        of the record, s; all of it unless given
-/// max_hz          stiffest springs, Omega_n/2 pi, Hz, for programs with fixed time steps
+/// max_hz          stiffest springs, Omega_n/2 pi, Hz; not for programs with steps of one size,
+///                 whose springs `tune run --for` finds
 /// max_settlement  of the standing body, m
 /// friction        coefficient of the ground, without unit, for the warning of sliding
 /// front           error against stiffness, too

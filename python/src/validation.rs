@@ -1,6 +1,6 @@
 //! Springs judged over many records.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use dynamics::fem::Control;
 use pyo3::{prelude::*, types::PyTuple};
@@ -10,9 +10,10 @@ use validation::{self as core, JudgedModel, Validator};
 use strong_motion::{ReadOptions, RecordError};
 
 use crate::{
+    many::several_of,
     numbers::{ratio, seconds},
     record::Record,
-    said::{plain, value_error, warn},
+    said::{plain, shown, value_error, value_error_of, warn_of_file},
     springs::Springs,
     structure::Structure,
     work::interruptible,
@@ -69,10 +70,21 @@ impl Validation {
 }
 
 /// Where the records are.
-#[derive(FromPyObject)]
-pub enum Records<'py> {
-    Several(Vec<PyRef<'py, Record>>),
+pub enum Records {
+    Several(Vec<Record>),
     Folder(PathBuf),
+}
+
+impl<'py> FromPyObject<'_, 'py> for Records {
+    type Error = PyErr;
+
+    fn extract(of: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(folder) = of.extract() {
+            return Ok(Self::Folder(folder));
+        }
+        let give = "give Records (read_record makes one of a file), or the path of a folder";
+        several_of(&of, "records", give).map(Self::Several)
+    }
 }
 
 /// Judge springs over many records.
@@ -92,7 +104,7 @@ pub fn validate(
     py: Python<'_>,
     structure: Structure,
     springs: Springs,
-    records: Option<Records<'_>>,
+    records: Option<Records>,
     synthetic: usize,
     earthquakes: usize,
     seed: u64,
@@ -101,9 +113,10 @@ pub fn validate(
 ) -> PyResult<Validation> {
     let restitution = ratio(restitution)?.unwrap_or(structure.e);
     let duration = seconds(duration)?;
+    springs.check_mass(py, "validate", &structure)?;
     let own: Vec<strong_motion::Record> = match records {
         None => Vec::new(),
-        Some(Records::Several(several)) => several.iter().map(|record| record.0.clone()).collect(),
+        Some(Records::Several(several)) => several.into_iter().map(|record| record.0).collect(),
         Some(Records::Folder(folder)) => read_folder(py, &folder)?,
     };
     if let Some(shaken) = own.iter().find(|record| record.vertical.is_some()) {
@@ -146,12 +159,14 @@ pub fn validate(
 }
 
 /// Every record of a folder, with what its reader says.
-fn read_folder(py: Python<'_>, folder: &std::path::Path) -> PyResult<Vec<strong_motion::Record>> {
-    let files = strong_motion::Record::list_dir(folder).map_err(value_error)?;
+fn read_folder(py: Python<'_>, folder: &Path) -> PyResult<Vec<strong_motion::Record>> {
+    let refused = |error, path: &Path| value_error_of(error, &[&shown(path)]);
+    let files = strong_motion::Record::list_dir(folder).map_err(|error| refused(error, folder))?;
     let read = |file: &PathBuf| {
-        let recording =
-            strong_motion::Recording::read(file, &ReadOptions::default()).map_err(value_error)?;
-        recording.notices().iter().try_for_each(|notice| warn(py, notice))?;
+        let recording = strong_motion::Recording::read(file, &ReadOptions::default())
+            .map_err(|error| refused(error, file))?;
+        let names = [&*shown(file)];
+        recording.notices().iter().try_for_each(|notice| warn_of_file(py, notice, &names))?;
         Ok(recording.into_record())
     };
     files.iter().map(read).collect()
