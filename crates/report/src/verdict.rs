@@ -10,6 +10,15 @@ const HARDLY: f64 = 0.02;
 impl Run {
     /// What the run was asked, in one sentence.
     pub fn verdict(&self) -> String {
+        self.in_a_sentence(&self.foretold())
+    }
+
+    /// The same before a run has found how far the motion can be foretold: of that nothing.
+    pub fn preliminary_verdict(&self) -> String {
+        self.in_a_sentence("")
+    }
+
+    fn in_a_sentence(&self, foretold: &str) -> String {
         let answer = self.findings.iter().find(|finding| finding.weight == Weight::Answer);
         let graver =
             self.findings.iter().find(|f| matches!(f.finding, Finding::ModelsDisagree { .. }));
@@ -30,16 +39,10 @@ impl Run {
                 told.message,
                 self.left_aside(),
                 self.not_computed(),
-                self.foretold()
+                foretold
             ));
         }
-        sentence(&format!(
-            "{}{}{}{}",
-            told.message,
-            self.not_computed(),
-            self.feet_end(),
-            self.foretold()
-        ))
+        sentence(&format!("{}{}{}{}", told.message, self.not_computed(), self.feet_end(), foretold))
     }
 
     /// What the answer of a rigid body with members is with: friction goes alone.

@@ -16,7 +16,7 @@ function changed() {
   atRest = setTimeout(rest, REST_MS);
   const of = version;
   // an answer to what was asked before does not stay
-  setTimeout(() => { if (of === version && answered !== of) { $("verdict").className = "verdict"; $("word").textContent = "Computing ..."; for (const id of ["asked", "sentence", "tiles", "remarks"]) $(id).replaceChildren(); $("gauge-fill").style.width = "0"; } }, WAIT_MS);
+  setTimeout(() => { if (of === version && answered !== of) { $("verdict").className = "verdict"; $("word").textContent = "Computing ..."; for (const id of ["asked", "sentence", "stage", "tiles", "remarks"]) $(id).replaceChildren(); $("gauge-fill").style.width = "0"; } }, WAIT_MS);
   askAtOnce();
 }
 // a pulse is a file like any other
@@ -57,6 +57,7 @@ async function askRecord() {
     $("file-error").hidden = true;
   } catch (error) {
     $("record-line").textContent = "";
+    if (state.rec === "file") tableOf(state.file, error.message);
     if (state.rec === "file") { $("file-error").textContent = onPage(error.message); $("file-error").hidden = false; }
   }
   fileOptions(lastRecord);
@@ -93,6 +94,7 @@ async function tune(of) {
   } catch (error) {
     if (error.message === "stopped" || of !== version) return;
     $("tune-state").textContent = "";
+    $("stage").textContent = "Preliminary: the whole run has no answer (see the ground springs).";
     $("tuned").innerHTML = `<p class="error">${escape(onPage(error.message))}</p>`;
   }
 }
@@ -115,6 +117,7 @@ function showSaid(said, ofRun = false) {
   const word = back ? "It passes its balance and comes back" : WORDS[said.does];
   $("word").textContent = doubt ? `${word} here, by chance` : word;
   $("sentence").textContent = said.verdict;
+  $("stage").textContent = ofRun ? "" : "Preliminary, on springs from the geometry: the run that follows decides, and tells how far the motion can be predicted.";
   $("gauge-fill").style.width = `${Math.min(100, 100 * share)}%`;
   $("gauge").setAttribute("aria-label", said.does === "overturns" ? "It overturns" : `Largest rotation: ${digits(100 * share, 3)} % of what overturns it`);
   const p = said.peaks?.with_members ?? said.peaks?.springs, down = said.does === "stays_down";
@@ -163,7 +166,7 @@ function showError(message) {
   $("verdict").className = "verdict";
   $("word").textContent = "No answer yet";
   $("sentence").textContent = onPage(message);
-  $("asked").textContent = "";
+  $("asked").textContent = $("stage").textContent = "";
   $("gauge-fill").style.width = "0";
   for (const id of ["tiles", "remarks", "springs", "tuned", "working", "fixed"]) $(id).replaceChildren();
   $("tune-state").textContent = "";
@@ -237,14 +240,14 @@ async function charts(of) {
     await fill("plot-width", widths, wide, { own, by: own, xName: `width, ${len.unit}; dashed: as given`, range: [widths[0] * own, widths.at(-1) * own] }, async (rows) => {
       const falls = rows.findLastIndex(([, s]) => s === null);
       const least = falls < 0 || falls === rows.length - 1 ? null : await edge(rows[falls + 1][0], rows[falls][0], wide, own);
-      if (!stale()) $("width-caption").textContent = widthCaption(rows, least, len.unit);
+      if (!stale()) $("width-caption").textContent = chartsOf(widthCaption(rows, least, len.unit));
     });
     if (stale()) return;
     const range = [0.05, Math.max(3, 2 * state.scale)], scales = steps(...range, SCALE_STEP);
     await fill("plot-scale", scales, (scale) => ({ scale }), { own: state.scale, xName: "scale of the record, times; dashed: as given", range: [0, range[1]] }, async (rows) => {
       const first = rows.findIndex(([, s]) => s === null);
       const weakest = first < 0 ? null : first === 0 ? rows[0][0] : await edge(rows[first - 1][0], rows[first][0], (scale) => ({ scale }));
-      if (!stale()) $("scale-caption").textContent = scaleCaption(rows, weakest);
+      if (!stale()) $("scale-caption").textContent = chartsOf(scaleCaption(rows, weakest));
     });
     if (stale()) return;
     const sizes = spread(Math.max(0.05, w.radius_m / 12), w.radius_m * 12, 48, true), alphas = spread(0.03, Math.min(0.85, Math.max(0.5, 1.5 * w.alpha)), 28);
@@ -257,7 +260,7 @@ async function charts(of) {
       plotSpectrum(spectrum);
       $("else-progress").textContent = `${(j + 1) * sizes.length} of ${alphas.length * sizes.length} histories`;
     }
-    $("spectrum-caption").textContent = `The ring: this structure, R = ${withUnit(w.radius_m, LENGTH, 3)}, ${digits((w.alpha * 180) / Math.PI, 3)} degrees. Larger bodies of the same slenderness are harder to overturn.`;
+    $("spectrum-caption").textContent = `The ring: ${isRigid() ? "this structure" : "the rigid body of this structure"}, R = ${withUnit(w.radius_m, LENGTH, 3)}, ${digits((w.alpha * 180) / Math.PI, 3)} degrees. Larger bodies of the same slenderness are harder to overturn.`;
     $("else-progress").textContent = "";
   } catch (error) { if (error.message !== "stopped") $("else-progress").textContent = error.message; }
 }

@@ -76,6 +76,8 @@ const digitsUp = (x) => digitsDown(x, Math.ceil);
 const withUnit = (x, unit, n = 4) => `${digits(x * unitOf(unit).by, n)} ${unitOf(unit).unit}`;
 
 // ---- what the charts tell
+// of a structure that gives they are of another body, and say so first
+const chartsOf = (text) => (isRigid() ? text : `The rigid body: ${text[0].toLowerCase()}${text.slice(1)}`);
 const WIDTH_STEP = 0.005, SCALE_STEP = 0.002;
 // from one number to another in equal shares, on a lattice that does not hang on them
 const steps = (low, high, share) => { const by = Math.log(1 + share), from = Math.ceil(Math.log(low) / by); return Array.from({ length: Math.floor(Math.log(high) / by) - from + 1 }, (_, i) => Math.exp((from + i) * by)); };

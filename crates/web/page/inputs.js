@@ -56,6 +56,9 @@ function buildForm() {
   $("record-part").replaceChildren(motion("scale"));
   $("pulse-part").hidden = state.rec !== "pulse";
   $("file-part").hidden = state.rec !== "file";
+  $("else-of").hidden = isRigid();
+  $("else-how").hidden = !isRigid();
+  $("else-of").textContent = isRigid() ? "" : `These charts are of the rigid body of the same shape and masses, by Housner's equation, and not of the ${KINDS[state.kind].title}, which gives: the answer above may differ from them.`;
   programForm();
 }
 // the program with steps of one size; its integrators are those that it has
@@ -84,6 +87,13 @@ function stepTyped() {
   state.step = none ? "" : x;
   changed();
 }
+// the columns of files that are tables, as the program lists those that are accelerations
+const tables = new Map();
+function tableOf(file, message) {
+  if (!/ columns; choose the acceleration/.test(message)) return;
+  const found = [...message.matchAll(/column (\d+)(?: \(((?:[^()]|\([^()]*\))*)\))?(?=, column \d|[;)])/g)];
+  tables.set(file, found.map(([, number, name]) => [`column ${number}`, name ? `${number}: ${name}` : number]));
+}
 // what a file has to choose from
 function fileOptions(record) {
   const box = $("file-options");
@@ -101,6 +111,9 @@ function fileOptions(record) {
     box.append(l);
   };
   const level = record?.components.filter((c) => !c.vertical) ?? [], up = record?.components.filter((c) => c.vertical) ?? [];
+  // of a link the columns are known when none is chosen
+  const columns = tables.get(state.file) ?? (/^column \d+$/.test(state.comp) ? [[state.comp, state.comp]] : []);
+  if (columns.length > 0) select("column of the acceleration", [["", "choose"], ...columns], state.comp, (v) => (state.comp = v));
   if (level.length > 1) select("component", [["", "the stronger one"], ...level.map((c) => [c.name, `${c.label}, peak ${digits(c.pga_g, 3)} g`])], state.comp, (v) => (state.comp = v));
   if (up.length === 1 && level.length) {
     const l = document.createElement("label");
@@ -112,7 +125,7 @@ function fileOptions(record) {
     box.append(l);
   }
   if (!record || state.units || state.dt) {
-    select("unit of the numbers", [["", "as the file says"], ["g", "g"], ["m/s2", "m/s²"], ["cm/s2", "cm/s²"], ["mm/s2", "mm/s²"]], state.units, (v) => (state.units = v));
+    select("unit of the numbers", [["", "as the file says"], ...["g", "m/s2", "cm/s2", "mm/s2", "mg", "%g", "ft/s2", "in/s2", "mGal"].map((u) => [u, u.replace("s2", "s²")])], state.units, (v) => (state.units = v));
     const l = document.createElement("label");
     l.className = "field"; l.style.display = "block";
     const n = document.createElement("input");

@@ -55,6 +55,10 @@ function programOf(program, at) {
 // What the program tune advises by its options, by the controls of this page; of others it is said whose they are.
 const CONTROLS = [
   [/take it: --vertical auto|take it with --vertical auto \([^)]*\)/, 'tick "with its vertical component"'],
+  [/choose the acceleration with --column.*$/, 'choose the one of the acceleration under "column of the acceleration"'],
+  [/; if each column is a component, choose one with --column/, ""],
+  [/tune verify judges the deck over/, "the deck for OpenSees can be compared with this history over"],
+  [/--baseline removes it[^)]*\)/, "the program tune removes it"],
   [/choose with --component/, 'choose under "component"'],
   [/\(--component\)/, 'under "component"'],
   [/: --scale/, ': "scale of the record"'],

@@ -38,7 +38,8 @@ fn rigid(case: &Case, friction: f64) -> Result<Said, WebError> {
     let springs = springs_at_once(&body, case.tuning.asked()).ok_or(WebError::NoSprings)?;
     let RunAtOnce { record, both, run } = RunAtOnce::new(case, &springs, friction)?;
     let history = HistorySeries::of_rigid(case.structure.kind, &body, &both, &record);
-    Ok(Said::of(&run, Working::of(&body), history))
+    let said = Said::of(&run, Working::of(&body), history);
+    Ok(Said { verdict: run.preliminary_verdict(), ..said })
 }
 
 /// The springs of the last structure: a search each, whatever the record.
