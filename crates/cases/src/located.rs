@@ -2,6 +2,7 @@
 //! record in the words of case files.
 
 use super::CaseError;
+use files::message::with_words_for;
 use strong_motion::{ReadOptions, RecordError};
 
 /// What options are called in a case file, as messages name them; the first that fits.
@@ -70,9 +71,8 @@ fn key_of(error: &RecordError, text: &str) -> Option<&'static str> {
 
 /// A message of a record that names options, in the keys of files.
 pub fn in_keys(message: &str) -> String {
-    KEYS.iter()
-        .fold(message.to_owned(), |message, (option, key)| message.replace(option, key))
-        .replace("--dt", "dt_s")
+    let keys = KEYS.iter().chain(&[("--dt", "dt_s")]);
+    keys.fold(message.to_owned(), |message, (option, key)| with_words_for(&message, option, key))
 }
 
 /// The line of a key, from 1: "record.scale", or a key of any section.

@@ -46,6 +46,31 @@ pub fn one_line(text: &str) -> String {
     short
 }
 
+/// A text with other words in the place of an option, where it stands as a word: what is part of a
+/// file's name, `site--dt.txt`, stays.
+pub fn with_words_for(text: &str, option: &str, words: &str) -> String {
+    let of_a_name =
+        |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | '.' | '/' | '\\' | '~');
+    let mut said = String::with_capacity(text.len());
+    let mut from = 0;
+    for (at, _) in text.match_indices(option) {
+        let end = at + option.len();
+        let mut after = text[end..].chars();
+        // a point or a dash may end what is said
+        let goes_on = match after.next() {
+            Some('.' | '-' | '/') => after.next().is_some_and(of_a_name),
+            next => next.is_some_and(of_a_name) && option.ends_with(of_a_name),
+        };
+        let begins = !text[..at].ends_with(of_a_name) || !option.starts_with(of_a_name);
+        if begins && !goes_on {
+            said += &text[from..at];
+            said += words;
+            from = end;
+        }
+    }
+    said + &text[from..]
+}
+
 /// A share in percent, three digits: 0.0123 %, 4.57 %, 96.0 %. Beyond a thousand percent a number
 /// says no more than that it is large.
 pub fn percent(share: f64) -> String {
@@ -197,6 +222,17 @@ mod tests {
         );
         assert_eq!(printable_lines("a\n\tb\r"), "a\n\tb\\r");
         assert_eq!(one_line("a\u{202e}b"), "a?b");
+    }
+
+    #[test]
+    fn an_option_is_replaced_where_it_is_a_word() {
+        let said = |text| with_words_for(text, "--dt", "dt_s");
+        assert_eq!(said("pass --dt, or (--dt) --dt."), "pass dt_s, or (dt_s) dt_s.");
+        assert_eq!(said("site--dt.txt: drop --dt"), "site--dt.txt: drop dt_s");
+        for name in ["--dt.txt", "a/--dt/b", "--dt-2", "x--dt", "--dtx"] {
+            assert_eq!(said(name), name);
+        }
+        assert_eq!(with_words_for("3 (a; in a case file)", "; in a case file)", ")"), "3 (a)");
     }
 
     #[test]

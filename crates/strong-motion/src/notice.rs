@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use files::message::significant;
+use files::message::{significant, with_words_for};
 
 use super::Record;
 use super::text::quote;
@@ -81,7 +81,7 @@ impl Notice {
     #[doc(hidden)]
     pub fn with_keys_of(&self, section: &str) -> String {
         OPTIONS.iter().fold(self.to_string(), |told, (option, key)| {
-            told.replace(option, &format!("{key} under [{section}]"))
+            with_words_for(&told, option, &format!("{key} under [{section}]"))
         })
     }
 }
