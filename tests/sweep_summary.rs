@@ -202,6 +202,10 @@ fn a_summary_tells_of_vertical_motion_and_of_friction() {
     across.says("  It lifts at PGA = g tan(alpha) = 0.250 g.");
     across.says(friction);
     across.does_not_say("vertical");
+    across.does_not_say("spread evenly");
+    let levels = "pga_g = { from = 0.2, to = 2.0, count = 12, spacing = \"log\" }";
+    fragility("el_centro = true", levels)
+        .says("10 of its 12 levels, spread evenly; ida.csv has all");
 }
 
 /// El Centro at five times overturns a block that lifts at 0.25 g, a push of 0.01 g does not lift

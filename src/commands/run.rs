@@ -34,7 +34,7 @@ use run_folder::{
 };
 use springs::{
     job::{Job, MOST_WORK},
-    landing_simulation::ATTAINABLE,
+    landing_simulation::MEASURED_SHARES,
 };
 use strong_motion::{Record, excitation::Excitation};
 
@@ -163,11 +163,11 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     ended(&effort, &o.out)
 }
 
-/// Say at once of a restitution that no springs have, before a search of minutes for the nearest.
+/// Say at once of a restitution at which no springs were measured, before a search of minutes.
 fn out_of_reach(case: &Case, quiet: bool) {
     let (asked, body) = (case.restitution, case.structure.body::<f64>());
     let share = asked / body.restitution();
-    let (least, most) = ATTAINABLE;
+    let (least, most) = MEASURED_SHARES;
     if quiet || (least..=most).contains(&share) {
         return;
     }

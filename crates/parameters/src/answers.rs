@@ -80,7 +80,15 @@ pub fn with_members(
     let reference = housner.as_ref().unwrap_or(motion);
     let impacts = &rigid.as_ref().unwrap_or(rocking).impacts;
     let answers = (reference, &impacts[..]);
-    let matched = Match::with_members(body, *members, record.dt, answers, &history, restitution);
+    let mut matched =
+        Match::with_members(body, *members, record.dt, answers, &history, restitution);
+    // Housner's solution locates what his samples only enclose
+    let located = rigid.as_ref().unwrap_or(rocking).overturned();
+    if let Some((sampled, located)) = matched.overturned_housner_s.as_mut().zip(located)
+        && (located - *sampled).abs() < record.dt
+    {
+        *sampled = located;
+    }
     count(&mut demands, body, record.dt, &history.landings, matched.overturned_fem_s);
     MemberHistory { members: *members, rocking: rigid, housner, history, demands, matched }
 }
@@ -255,6 +263,40 @@ mod tests {
         let friction = Some(rocking::members::Friction { coefficient: 0.8 });
         let slips = of(Members { friction, ..Members::default() });
         assert!(slips.with.unwrap().housner.is_none());
+    }
+
+    /// A steady push from rest: theta'^2/2 is the integral of equation 1, and the time to alpha is
+    /// that of 1/theta', regular in s, theta = s^2.
+    #[test]
+    fn housners_overturning_is_when_his_solution_passes_alpha() {
+        let structure = Structure::block(2.0, 0.5, 1e3).unwrap();
+        let body = structure.body::<f64>();
+        let (alpha, push) = (body.alpha(), 2.0 * body.alpha().tan());
+        let energy = |theta: f64| {
+            let left = alpha - theta;
+            push * (alpha.sin() - left.sin()) - (left.cos() - alpha.cos())
+        };
+        let integrand = |s: f64| {
+            let slope = push * alpha.cos() - alpha.sin();
+            let over_theta = if s > 1e-6 { energy(s * s) / (s * s) } else { slope };
+            2.0 / (body.p() * (2.0 * over_theta).sqrt())
+        };
+        let (n, end) = (2000, alpha.sqrt());
+        let simpson = |i: usize| match i {
+            i if i == 0 || i == n => 1.0,
+            i if i % 2 == 1 => 4.0,
+            _ => 2.0,
+        };
+        let step = end / n as f64;
+        let time: f64 = (0..=n).map(|i| simpson(i) * integrand(i as f64 * step)).sum();
+        let time = time * step / 3.0;
+        let accel = vec![push * rocking::scalar::GRAVITY; 400];
+        let record = Record::new("push", 0.02, accel).unwrap();
+        let design = Design::from_kc(0.3, 0.1, 0.75, 320.0);
+        let springs = Springs { vertical: design, horizontal: design }.chains(structure.mass_kg);
+        let found = both(&body, body.restitution(), &springs, &Members::default(), &record);
+        let told = found.matched.overturned_housner_s.unwrap();
+        assert!((told - time).abs() < 1e-7, "{told} {time}");
     }
 
     #[test]

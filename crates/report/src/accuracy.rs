@@ -2,10 +2,11 @@
 
 use serde::Serialize;
 
-use super::Table;
+use super::{FiledParameters, Run, Table};
 use cases::Yardstick;
 use files::message::{percent, significant};
 use parameters::Parameters;
+use results::{Finding, findings::HARDLY_ROCKS};
 use springs::suite::{Accuracy, LOOSER, PeakAccuracy, Statistic};
 use validation::PeakErrors;
 
@@ -19,6 +20,12 @@ pub(crate) enum Unjudged {
     TooSensitive,
     /// Nothing rocks on it.
     NothingRocks,
+    /// It overturns before an impact, so that no landing judges them.
+    NoImpact,
+    /// Housner's pivot would have to pull: his equation ends.
+    PivotPulls,
+    /// None of these.
+    NotJudged,
 }
 
 impl Unjudged {
@@ -26,7 +33,40 @@ impl Unjudged {
         match self {
             Self::TooSensitive => "this record is too sensitive",
             Self::NothingRocks => "this record: it does not rock",
+            Self::NoImpact => "this record: it overturns without an impact",
+            Self::PivotPulls => "this record: Housner's body leaves the ground",
+            Self::NotJudged => "this record: not judged on",
         }
+    }
+}
+
+impl Run {
+    /// Why springs are not judged on the record, if there is one.
+    pub(crate) fn unjudged(&self) -> Option<Unjudged> {
+        self.taken.record.as_ref()?;
+        let rests = self.findings.iter().any(|filed| match filed.finding {
+            Finding::NeverLifts { .. } | Finding::Slides { .. } => true,
+            Finding::Stands { share_of_overturning, .. } => share_of_overturning < HARDLY_ROCKS,
+            _ => false,
+        });
+        let any = |of: fn(&Finding) -> bool| self.findings.iter().any(|filed| of(&filed.finding));
+        let flies =
+            any(|f| matches!(f, Finding::PivotLeavesGround { .. } | Finding::FreeFlight { .. }));
+        let sensitive = match &self.parameters {
+            FiledParameters::Rigid(of) => {
+                of.conditioning.and_then(|row| row.well_conditioned).is_some_and(|well| !well)
+            }
+            FiledParameters::Elastic(_) => self.predictable_to().is_some(),
+        };
+        let no_impact = any(|f| matches!(f, Finding::Overturns { .. }))
+            && self.peaks.is_some_and(|pair| pair.reference.impacts == 0);
+        Some(match () {
+            () if rests => Unjudged::NothingRocks,
+            () if sensitive => Unjudged::TooSensitive,
+            () if flies => Unjudged::PivotPulls,
+            () if no_impact => Unjudged::NoImpact,
+            () => Unjudged::NotJudged,
+        })
     }
 }
 

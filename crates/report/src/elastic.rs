@@ -164,6 +164,7 @@ impl ElasticParts<'_> {
                 horizontal_g,
                 overturns_s,
                 changes,
+                predictable_to_s: None,
                 checked: false,
             });
         };
@@ -184,6 +185,7 @@ impl ElasticParts<'_> {
             horizontal_g,
             overturns_s: with.overturns,
             changes: [top].into_iter().chain(with.forces.into_iter().filter_map(change)).collect(),
+            predictable_to_s: None,
             checked: false,
         })
     }

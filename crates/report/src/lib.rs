@@ -29,7 +29,6 @@ use dynamics::spring::Chain;
 use rocking::structure::Kind;
 use serde::Serialize;
 
-use accuracy::Unjudged;
 pub use accuracy::{AccuracyOn, AccuracyReport};
 use cases::{
     assumptions::{AssumedQuantity, Assumption},
@@ -42,7 +41,7 @@ pub use program::ProgramReport;
 pub use results::predictable_to;
 use results::{
     DesignForce, DesignForces, FiledFinding, Finding, ForceName, PeakChange, PeakPair, Peaks,
-    Weight, findings::HARDLY_ROCKS,
+    Weight,
 };
 use strong_motion::Record;
 pub use table::Table;
@@ -88,7 +87,10 @@ fn changes(
     words: fn(ForceName) -> &'static str,
     (peaks, forces): (Option<PeakPair>, Option<DesignForces>),
     (with_peaks, with_forces): (PeakPair, DesignForces),
+    until: Option<f64>,
 ) -> Vec<PeakChange> {
+    // what is largest after the motion can be predicted is one of many values
+    let told = |time: Option<f64>| until.is_none_or(|until| time.is_some_and(|t| t <= until));
     let change = |quantity: &str, unit: &str, without: f64, with: f64| PeakChange {
         quantity: quantity.into(),
         unit: unit.into(),
@@ -98,15 +100,19 @@ fn changes(
     // with members, theirs; else the reference's, which springs may follow badly, unless it ends
     // before the record
     let whole = peaks.iter().chain([&with_peaks]).all(|pair| pair.reference_ends_s.is_none());
-    let top = |pair: &PeakPair| {
+    let answer = |pair: &PeakPair| {
         let without = if whole { pair.reference } else { pair.springs };
-        pair.with_members.unwrap_or(without).top_displacement_m
+        pair.with_members.unwrap_or(without)
     };
-    let top = peaks.map(|peaks| change("top displacement", "m", top(&peaks), top(&with_peaks)));
+    let top = |pair: &PeakPair| answer(pair).top_displacement_m;
+    let at = answer(&with_peaks).times.map(|times| times.top_displacement_s);
+    let given = peaks.filter(|_| told(at));
+    let top = given.map(|peaks| change("top displacement", "m", top(&peaks), top(&with_peaks)));
     let with: Vec<_> = with_forces.all().collect();
     let forces = forces.into_iter().flat_map(|forces| forces.all().collect::<Vec<_>>()).filter_map(
         |(name, force)| {
             let (_, other) = with.iter().find(|(other, _)| *other == name)?;
+            told(Some(other.time_s)).then_some(())?;
             Some(change(words(name), name.unit(), force.value?.abs(), other.value?.abs()))
         },
     );
@@ -324,17 +330,6 @@ impl Run {
             })
         };
         holds_to.is_some_and(late)
-    }
-
-    /// Why springs are not judged on the record, if there is one.
-    pub(crate) fn unjudged(&self) -> Option<Unjudged> {
-        self.taken.record.as_ref()?;
-        let rests = self.findings.iter().any(|filed| match filed.finding {
-            Finding::NeverLifts { .. } | Finding::Slides { .. } => true,
-            Finding::Stands { share_of_overturning, .. } => share_of_overturning < HARDLY_ROCKS,
-            _ => false,
-        });
-        Some(if rests { Unjudged::NothingRocks } else { Unjudged::TooSensitive })
     }
 
     /// Whether some design forces are those of one motion of many that the record might as well

@@ -26,6 +26,10 @@ use validation::verdict::{Answer, Fate, Verdict};
 /// Largest rotation, over alpha, of a body that rocks.
 const ROCKS: f64 = 0.02;
 
+/// Vertical force of the ground over the weight below which it is said how near a body is to
+/// leaving the ground.
+const HARDLY_PRESSES: f64 = 0.1;
+
 /// Share by which two friction coefficients are one.
 const SAME: f64 = 1e-6;
 
@@ -167,6 +171,10 @@ impl HousnerReport {
         }
         if let Some(flight) = r.free_flight {
             all.push(Finding::FreeFlight { time_s: flight.time, lowest_over_weight: flight.value });
+        } else if self.lands && self.left_ground_s.is_none() && r.least_press.value < HARDLY_PRESSES
+        {
+            let TimedPeak { value: press_over_weight, time: time_s } = r.least_press;
+            all.push(Finding::HardlyPresses { time_s, press_over_weight });
         }
         if let Some(stocky) = r.too_stocky {
             let regime::Stocky { restitution, friction_needed } = stocky;

@@ -7,6 +7,7 @@ pub mod program;
 mod sections;
 pub mod tables;
 mod taken;
+mod walk;
 
 use super::{
     AccuracyReport, Assumed, FiledParameters, ProgramReport, Run, Section, Taken, Unit, changes,
@@ -27,7 +28,7 @@ use parameters::{
 };
 use peaks::{peaks, peaks_to};
 use results::{Finding, PeakChange};
-use rocking::{housner::RockingOutcome, members::Members, regime, structure::Kind};
+use rocking::{members::Members, structure::Kind};
 use sections::sections;
 use springs::{job::Job, paper_procedure::table_1};
 use strong_motion::Record;
@@ -193,6 +194,7 @@ impl RigidRun {
         all.extend(parameters.design_forces.iter().flat_map(|forces| forces.withheld()));
         all.extend(parameters.design_forces.iter().filter_map(|forces| forces.at_rest()));
         all.extend(self.report.findings_beside(&self.both));
+        all.extend(walk::finding(&self.job.body, self.job.record.dt, &self.both));
         all.extend(reference::histories(&self.both));
         all.extend(self.of_deck.clone());
         all
@@ -243,17 +245,28 @@ impl RigidRun {
             design_forces(kind, &job.body, &record, &both, softer.as_ref(), None),
         );
         let given = (self.parameters.peaks, self.parameters.design_forces);
-        let mut changes = changes(super::force_words(kind), given, (peaks, forces));
-        let ground = (&record.accel[..], record.up());
-        let regime = regime::check(&job.body, record.dt, ground, 1.0, &both.rocking, f64::INFINITY);
-        let lifted = both.rocking.outcome != RockingOutcome::NeverMoved;
-        let report = HousnerReport { regime, lifted, lands: lifted, ..self.report };
+        let (body, friction) = (&job.body, f64::INFINITY);
+        let report = HousnerReport::new(body, case.restitution, &record, &both.rocking, friction)
+            .with_members(body, &record, &both)
+            .with_conditioning(body, &chains, &record, &both);
+        let verdict = both.verdict(body, record.dt, &report.conditioning);
+        let doubts = reference::ill_conditioned(&report, &verdict, false);
+        let predictable_to_s = report
+            .findings()
+            .iter()
+            .chain(&doubts)
+            .filter_map(|finding| finding.predictable_to())
+            .reduce(f64::min);
+        let words = super::force_words(kind);
+        let mut changes = changes(words, given, (peaks, forces), predictable_to_s);
         // feet that slide need what there is
-        changes.extend(case.members.friction.is_none().then(|| PeakChange {
+        let at = report.regime.friction_needed.time;
+        let told = predictable_to_s.is_none_or(|until| at <= until);
+        changes.extend((told && case.members.friction.is_none()).then(|| PeakChange {
             quantity: "friction needed".into(),
             unit: String::new(),
             without: self.report.friction_needed(),
-            with: report.with_members(&job.body, &record, &both).friction_needed(),
+            with: report.friction_needed(),
         }));
         // springs answer for members, and where Housner's solution ends before the record
         let overturns_s = match &both.with {
@@ -262,7 +275,14 @@ impl RigidRun {
             None => both.matched.overturned_housner_s,
         };
         let checked = true;
-        Some(Finding::VerticalLeftOut { vertical_g, horizontal_g, overturns_s, changes, checked })
+        Some(Finding::VerticalLeftOut {
+            vertical_g,
+            horizontal_g,
+            overturns_s,
+            changes,
+            predictable_to_s,
+            checked,
+        })
     }
 
     fn sections(&self) -> Vec<Section> {

@@ -274,7 +274,7 @@ fn springs(run: &Run, lines: &mut Vec<String>) {
             table.rows.push([vec![name], cells.into()].concat());
         }
     };
-    let own = (steps.as_ref().map(|_| "OpenSees deck only"), &run.springs);
+    let own = (steps.as_ref().map(|_| "OpenSees, adaptive"), &run.springs);
     let usable = run.program.iter().filter(|program| program.usable);
     let mut all: Vec<_> =
         [own].into_iter().chain(usable.map(|program| (steps.as_deref(), &program.units))).collect();

@@ -118,8 +118,7 @@ impl Run {
         }
         let in_part = any(|f| match f {
             Finding::DeckJudged { end, .. } => *end != DeckEnd::Record,
-            // of a motion that a small change moves, though nowhere by much, nothing is promised
-            Finding::IllConditioned { .. } => true,
+            Finding::IllConditioned { holds_to_s, .. } => holds_to_s.is_some(),
             _ => matches!(
                 f,
                 Finding::ModelsDisagree { .. }
@@ -128,7 +127,10 @@ impl Run {
             ),
         });
         let stands = any(|f| matches!(f, Finding::Stands { .. }));
+        // a small change moves it, though nowhere by much
+        let peaks_alone = any(|f| matches!(f, Finding::IllConditioned { holds_to_s: None, .. }));
         match stands && !in_part && alone.is_empty() {
+            true if peaks_alone => "; its peaks are predictable".into(),
             true => "; predictable".into(),
             false => alone,
         }

@@ -168,6 +168,15 @@ pub enum Finding {
         least: f64,
         most: f64,
     },
+    /// Springs of equation 2's restitution beside springs that bounce for another: which were
+    /// chosen, and what both err, in that order.
+    SpringsForRestitution {
+        asked: f64,
+        share: f64,
+        equation_2: bool,
+        peaks: [Option<f64>; 2],
+        nrmse: [Option<f64>; 2],
+    },
     LandingsUnfinished {
         finished: usize,
         all: usize,
@@ -295,6 +304,16 @@ pub enum Finding {
         time_s: f64,
         lowest_over_weight: f64,
     },
+    /// How near a body comes to leaving the ground, if it does not.
+    HardlyPresses {
+        time_s: f64,
+        press_over_weight: f64,
+    },
+    /// How far feet on springs walk that Housner's body does not move (m).
+    WalksOnSprings {
+        largest_m: f64,
+        end_m: f64,
+    },
     TooStocky {
         restitution: f64,
         friction_needed: f64,
@@ -339,6 +358,10 @@ pub enum Finding {
         #[serde(skip_serializing_if = "Option::is_none")]
         overturns_s: Option<f64>,
         changes: Vec<PeakChange>,
+        /// Up to when the motion with it can be predicted (s), if not to its end: what is largest
+        /// later is not among the changes.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        predictable_to_s: Option<f64>,
         /// Whether forces are measured to be the structure's, as design forces are.
         #[serde(default)]
         checked: bool,

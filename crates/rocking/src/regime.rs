@@ -59,6 +59,8 @@ pub struct Regime {
     pub landing_friction: f64,
     /// First time with N <= 0, and the lowest N/(m g) of the history.
     pub free_flight: Option<TimedPeak>,
+    /// The lowest N/(m g) and its time, the first of equals.
+    pub least_press: TimedPeak,
     /// The geometry, if it is too stocky to land without bouncing.
     pub too_stocky: Option<Stocky>,
 }
@@ -95,8 +97,11 @@ pub fn check_with(
     // in g; gamma = 1 + a_v/g beside u_g/g
     let at = |record: &[f64], i: usize| record.get(i).copied().unwrap_or(0.0) * scale / GRAVITY;
     let sample = |i: usize| (at(accel, i), 1.0 + at(vertical, i));
-    let mut worst =
-        Worst { friction: TimedPeak { value: 0.0, time: 0.0 }, lowest: 1.0, flight: None };
+    let mut worst = Worst {
+        friction: TimedPeak { value: 0.0, time: 0.0 },
+        lowest: TimedPeak { value: 1.0, time: 0.0 },
+        flight: None,
+    };
     let mut impacts = rocking.impacts.iter().peekable();
     let upright = samples_until(rocking.overturned(), dt);
     // it lifts where the ground's force passes through the foot, between samples
@@ -130,7 +135,8 @@ pub fn check_with(
         friction,
         friction_needed: worst.friction,
         landing_friction: landing_friction(body, rocking),
-        free_flight: worst.flight.map(|time| TimedPeak { value: worst.lowest, time }),
+        free_flight: worst.flight.map(|time| TimedPeak { value: worst.lowest.value, time }),
+        least_press: worst.lowest,
         too_stocky: stockiness(body, friction),
     }
 }
@@ -248,13 +254,15 @@ fn forces_with(
 
 struct Worst {
     friction: TimedPeak,
-    lowest: f64,
+    lowest: TimedPeak,
     flight: Option<f64>,
 }
 
 impl Worst {
     fn take(&mut self, time: f64, (horizontal, vertical): (f64, f64)) {
-        self.lowest = self.lowest.min(vertical);
+        if vertical < self.lowest.value {
+            self.lowest = TimedPeak { value: vertical, time };
+        }
         if vertical <= 0.0 {
             self.flight.get_or_insert(time);
         } else if horizontal.abs() > self.friction.value * vertical {

@@ -4,7 +4,7 @@ use dynamics::compare::LEAST_LEAN;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    job::Job,
+    job::{Job, RestitutionChoice},
     landing_simulation::differs_from_housner,
     stiffness_search,
     suite::{Accuracy, JudgedOn, MeasuredErrors, PeakAccuracy},
@@ -59,6 +59,9 @@ pub struct Assessment {
     /// The landing in the stiff limit, where the springs follow from the geometry.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub landing: Option<LimitRow>,
+    /// Which springs were chosen for another restitution than equation 2's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub restitution_choice: Option<RestitutionChoice>,
 }
 
 impl Assessment {
@@ -83,6 +86,7 @@ impl Assessment {
             measured: histories,
             measured_peaks: Some(peaks),
             landing,
+            restitution_choice: job.restitution_choice,
         }
     }
 
@@ -211,6 +215,7 @@ mod tests {
                 measured,
                 measured_peaks: None,
                 landing: Some(landing),
+                restitution_choice: None,
             }
             .decided_by(&landing)
         };
@@ -244,6 +249,7 @@ mod tests {
                 measured: Accuracy::default(),
                 measured_peaks: Some(peaks),
                 landing: None,
+                restitution_choice: None,
             };
             assessment.missed_peaks()
         };

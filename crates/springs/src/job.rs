@@ -4,6 +4,7 @@
 mod error;
 mod landing_design;
 mod procedure;
+mod restitution;
 
 use std::f64::consts::TAU;
 
@@ -20,6 +21,7 @@ pub use error::JobError;
 use frequency_response::inner::Fit;
 use landing_design::LandingDesign;
 use procedure::Procedure;
+pub use restitution::{RestitutionChoice, RestitutionErrors};
 
 use cases::{Asked, Case, Objective};
 use dynamics::{
@@ -64,6 +66,8 @@ pub struct Job {
     pub suites: Suites,
     /// Whether a cap on Omega_n decided.
     pub capped: bool,
+    /// Which springs were chosen for another restitution than equation 2's.
+    pub restitution_choice: Option<RestitutionChoice>,
     /// None where the record cannot be tuned on: it does not lift the structure, or Housner's
     /// answer is ill-conditioned.
     pub paper: Option<Paper>,
@@ -137,7 +141,7 @@ impl Job {
                 SearchedSprings::by_paper_procedure(&procedure, &suites, effort, progress)?
             }
         };
-        let SearchedSprings { tuned, capped, paper, program, not_done } = found;
+        let SearchedSprings { tuned, capped, restitution_choice, paper, program, not_done } = found;
         let paper = paper.map(|tuned| Paper {
             vertical: procedure.vertical,
             horizontal: procedure.horizontal,
@@ -154,6 +158,7 @@ impl Job {
             tuned,
             suites,
             capped,
+            restitution_choice,
             paper,
             program,
             cut,
@@ -169,6 +174,7 @@ struct SearchedSprings {
     tuned: Tuned,
     /// Whether a cap on Omega_n decided.
     capped: bool,
+    restitution_choice: Option<RestitutionChoice>,
     paper: Option<outer::OmegaSearch>,
     program: Option<ProgramSprings>,
     not_done: Vec<NotDone>,
@@ -187,7 +193,7 @@ impl SearchedSprings {
             true => (design.tune(progress), None),
             false => join(|| design.tune(progress), || Some(program(&rest))),
         };
-        let (tuned, capped) = found?;
+        let (tuned, capped, restitution_choice) = found?;
         let mut not_done = left_out(NotDone::Stiffnesses, effort);
         let hz = tuned.best.springs.vertical.omega_n_hz;
         // on an ill-conditioned record it would tune to noise
@@ -202,7 +208,7 @@ impl SearchedSprings {
         if suites.has_whole_record() {
             not_done.extend(left_out(NotDone::PaperProcedure, effort));
         }
-        Ok(Self { tuned, capped, paper, program, not_done })
+        Ok(Self { tuned, capped, restitution_choice, paper, program, not_done })
     }
 
     /// By the paper's procedure alone.
@@ -216,7 +222,8 @@ impl SearchedSprings {
         let program =
             ProgramSprings::of_case(procedure.case, &procedure.benchmark.body, suites, effort);
         let not_done = left_out(NotDone::Stiffnesses, effort);
-        Ok(Self { tuned, capped, paper, program, not_done })
+        let restitution_choice = None;
+        Ok(Self { tuned, capped, restitution_choice, paper, program, not_done })
     }
 }
 

@@ -22,8 +22,9 @@
 //! so that the body keeps its angular momentum about that foot whatever the springs: that is
 //! equation 2, and why springs that do not bounce have it. To have another they must bounce: what
 //! they give back adds to the body's energy, and what the horizontal springs hold when a foot lifts
-//! is lost each time. Housner's e times 0.9 to 1.02 can be had so, at the price of up to 0.5 s in
-//! the air a landing.
+//! is lost each time. Landings with Housner's e times 0.9 to 1.02 can be had so, the less exactly
+//! the further from 1, at the price of up to 0.5 s in the air a landing. Forces on such springs err
+//! by tens of per cent, so that equation 2's springs are mostly the better ones (`job`).
 
 mod landing;
 pub mod report;
@@ -48,8 +49,8 @@ const WEIGHT_RESTITUTION: f64 = 15.0;
 const WEIGHT_ASKED: f64 = 400.0;
 /// Relative difference from equation 2 that counts as another.
 const ANOTHER: f64 = 1e-3;
-/// Share of equation 2's restitution that springs can give, from and to.
-pub const ATTAINABLE: (f64, f64) = (0.9, 1.02);
+/// Shares of equation 2's restitution between which springs were measured (docs/method.md).
+pub const MEASURED_SHARES: (f64, f64) = (0.9, 1.02);
 /// History error per second in the air beyond what is allowed.
 const WEIGHT_AIR: f64 = 15.0;
 /// The same where another restitution is asked for.

@@ -224,8 +224,13 @@ fn at_levels(
         Some(_) => "(1 + N0/W) g tan(alpha)",
         None => "g tan(alpha)",
     };
+    let all = ida.points.iter().filter(mine).count();
+    let shown = match all > rows.len() {
+        true => format!(" {} of its {all} levels, spread evenly; ida.csv has all:", rows.len()),
+        false => String::new(),
+    };
     let mut text = format!(
-        "  {} at PGA = {at} = {:.3} g.\n\
+        "  {} at PGA = {at} = {:.3} g.{shown}\n\
          \n  | {measure} | P(overturn) | {:.0} % bounds | lifts | {top} moves, median / 84 % [mm] \
          | foot lifts [mm] |\n  \
          |---|---|---|---|---|---|",

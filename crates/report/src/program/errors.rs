@@ -120,14 +120,12 @@ fn here(
 ) -> String {
     let nrmse = nrmse.map_or(String::new(), |x| format!(", NRMSE {}", significant(x, 2)));
     let to = until.map_or(String::new(), |until| format!(" to {} s", significant(until, 3)));
-    let (place, doubt) = match (fewest, sensitive) {
-        (true, false) => ("here", ""),
-        (true, true) => ("here", " (sensitive)"),
-        (false, false) => ("this record", ""),
-        (false, true) => ("this record", " (too sensitive to tell)"),
+    let doubt = match (fewest, sensitive) {
+        (_, false) => "",
+        (true, true) => " (not predictable)",
+        (false, true) => " (too sensitive to tell)",
     };
-    let colon = if fewest { "" } else { ":" };
-    format!("{place}{to}{colon} top {}{nrmse}{doubt}; ", signed_percent(top))
+    format!("this record{to}: top {}{nrmse}{doubt}; ", signed_percent(top))
 }
 
 pub(super) fn table<U>(row: &ProgramRow<U>, of: &ErrorsOf) -> Table {

@@ -52,7 +52,8 @@ fn substeps_are_halves_of_halves() {
 #[test]
 fn errors_of_the_record_and_of_motions_are_told_apart() {
     let [all, _, fewest] = report(true).lines();
-    assert!(fewest.contains("here top +1.00 %, NRMSE 0.089; peaks median 2.00 %, 90 %: 25.0 %"));
+    let told = "this record: top +1.00 %, NRMSE 0.089; peaks median 2.00 %, 90 %: 25.0 %";
+    assert!(fewest.contains(told), "{fewest}");
     assert!(all.contains("this record: top +1.00 %, NRMSE 0.089; "), "{all}");
     assert!(all.contains("2.00 % (median), 25.0 % (90 %) on 9 motions"), "{all}");
     assert!(all.contains("NRMSE 0.0056 (median), 0.2 (90 %)"), "{all}");

@@ -4,7 +4,7 @@ use cases::Yardstick;
 use files::message::percent;
 use parameters::{ConditioningRow, Parameters};
 use results::Finding;
-use springs::landing_simulation::{ATTAINABLE, LEANS, differs_from_housner};
+use springs::landing_simulation::{LEANS, MEASURED_SHARES, differs_from_housner};
 
 /// Error of restitution that is worth a warning.
 const RESTITUTION_MISSED: f64 = 0.005;
@@ -32,9 +32,19 @@ pub(super) fn springs_findings(parameters: &Parameters) -> Vec<Finding> {
         }
     }
     let share = e / body.restitution();
-    let (least, most) = ATTAINABLE;
+    let (least, most) = MEASURED_SHARES;
     if !(least..=most).contains(&share) {
         all.push(Finding::RestitutionOutOfReach { asked: e, share, least, most });
+    }
+    if let Some(of) = parameters.assessment.as_ref().and_then(|a| a.restitution_choice) {
+        let both = [of.of_equation_2, of.of_bouncing];
+        all.push(Finding::SpringsForRestitution {
+            asked: e,
+            share,
+            equation_2: of.equation_2,
+            peaks: both.map(|errors| errors.peaks),
+            nrmse: both.map(|errors| errors.histories),
+        });
     }
     let finished = parameters.landings.len();
     if finished < LEANS.len() {

@@ -6,11 +6,11 @@ use crate::{
     displacements::{DRIFT_RATIO, FRICTION, LARGEST, PART},
 };
 
-/// The row of the table of peaks that gives way to warnings.
+/// The row of the table of peaks that gives its line to warnings.
 const IMPACTS: &str = "impacts";
 /// The table of peaks without what the report alone has; the friction needed stands behind the
-/// impacts, outside of the columns, if there is room for both; where these give way, behind the
-/// last row.
+/// impacts, outside of the columns, if there is room for both; where these have no line of their
+/// own, both stand behind the last row.
 pub(super) fn of_screen(
     mut table: Table,
     Crowding { all_peaks, tight, .. }: Crowding,
@@ -23,15 +23,20 @@ pub(super) fn of_screen(
     let left_out = |name: &str| {
         name.starts_with(LARGEST) || (!all_peaks && name.starts_with(IMPACTS)) || first_to_go(name)
     };
-    let counted = table.rows.iter().any(|row| row[0].starts_with(IMPACTS));
+    let impacts = table.rows.iter().find(|row| row[0].starts_with(IMPACTS) && !all_peaks);
+    let impacts = impacts.map(|row| {
+        let counts = row[1..].iter().filter(|cell| !cell.is_empty());
+        let name = row[0].split(" (").next().unwrap_or(IMPACTS);
+        format!("{name}: {}; ", counts.cloned().collect::<Vec<_>>().join(", "))
+    });
     table.rows.retain(|row| !left_out(&row[0]));
     let mut lines = table.lines();
     // below the head and the displacement
     parts.into_iter().for_each(|parts| lines.insert(lines.len().min(2), parts));
     let Some(friction) = friction else { return lines };
-    let friction = friction[..2].join(": ");
+    let friction = impacts.clone().unwrap_or_default() + &friction[..2].join(": ");
     let room = |line: &&mut String| line.chars().count() + 3 + friction.chars().count() <= WIDTH;
-    let behind = |line: &&mut String| line.starts_with(IMPACTS) || !all_peaks && counted;
+    let behind = |line: &&mut String| line.starts_with(IMPACTS) || impacts.is_some();
     match lines.last_mut().filter(behind).filter(room) {
         Some(line) => *line += &format!(";  {friction}"),
         None => lines.push(friction),
@@ -55,6 +60,25 @@ mod tests {
         super::{CLOSEST, SPACIOUS},
         *,
     };
+
+    /// Where it is crowded, impacts have no line of their own, but are told.
+    #[test]
+    fn impacts_are_told_however_little_room_there_is() {
+        let row = |cells: [&str; 4]| cells.map(String::from).to_vec();
+        let table = || {
+            Table::new(["largest", "Housner", "on springs", ""]).with([
+                row(["uplift", "104.3 mm", "104.3 mm", "-0.002 %"]),
+                row(["impacts (above 0.02 alpha)", "1", "2", ""]),
+                row([FRICTION, "0.307", "", ""]),
+            ])
+        };
+        let crowded = of_screen(table(), Crowding { all_peaks: false, ..CLOSEST });
+        assert_eq!(crowded.len(), 2, "{crowded:?}");
+        let told = "-0.002 %;  impacts: 1, 2; friction needed: 0.307";
+        assert!(crowded[1].ends_with(told), "{crowded:?}");
+        let spacious = of_screen(table(), SPACIOUS);
+        assert!(spacious[2].starts_with("impacts (above") && spacious.len() == 3, "{spacious:?}");
+    }
 
     /// Where it is crowded, parts of the top's displacement stand in one line, and are all of it.
     #[test]

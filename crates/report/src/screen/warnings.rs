@@ -11,7 +11,7 @@ fn urgency(finding: &Finding) -> usize {
     match finding {
         // whether it stands, and where
         Finding::Sliding { .. } => 0,
-        Finding::FeetMoved { .. } => 1,
+        Finding::FeetMoved { .. } | Finding::WalksOnSprings { .. } => 1,
         Finding::SearchCut { .. } | Finding::IllConditioned { .. } => 1,
         Finding::VerticalLeftOut { .. } => 2,
         Finding::ForcesHeldInPart { .. }

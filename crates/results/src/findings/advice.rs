@@ -189,17 +189,10 @@ impl Finding {
                 "A body on soft springs sways before it lifts and loses less; a restitution other \
                     than equation 2's is met by a search, not exactly."
             }
-            Self::Sliding { press_over_weight: Some(_), .. } => {
-                "Rigid ground and the springs hold the feet at any force. A real structure would \
-                    slide, and rock less."
-            }
-            Self::Sliding { .. } => {
-                "Housner's body and the springs hold the feet at any force. A real structure would \
-                    slide, and rock less."
-            }
-            Self::FreeFlight { .. } => {
-                "Housner's equation would have to pull the foot down there; the finite elements \
-                    let it go."
+            Self::SpringsForRestitution { .. } => {
+                "Springs have equation 2's restitution unless they bounce, and bouncing spoils \
+                    forces. The springs with the smaller product of both errors are taken: medians \
+                    over synthetic motions, and this record's where it can be judged on."
             }
             Self::HistoryEndsEarly { .. } | Self::NoAnswer { .. } => {
                 "Both models are compared up to there."
@@ -211,6 +204,32 @@ impl Finding {
                 "A force that grows with the springs or the mesh is the model's, not the \
                     structure's. Where a finer model does not settle it, take it from another kind \
                     of model."
+            }
+            _ => return self.meaning_of_contact(),
+        })
+    }
+
+    /// The same of feet that slide, fly or walk.
+    fn meaning_of_contact(&self) -> Option<&'static str> {
+        Some(match self {
+            Self::Sliding { press_over_weight: Some(_), .. } => {
+                "Rigid ground and the springs hold the feet at any force. A real structure would \
+                    slide, and rock less."
+            }
+            Self::Sliding { .. } => {
+                "Housner's body and the springs hold the feet at any force. A real structure would \
+                    slide, and rock less."
+            }
+            Self::HardlyPresses { .. } => {
+                "A little more vertical motion, or a faster rotation, and it would fly: then his \
+                    equation ends, and springs alone tell what follows."
+            }
+            Self::WalksOnSprings { .. } => {
+                "Feet that bounce land beside where they stood. Nothing of it is the structure's."
+            }
+            Self::FreeFlight { .. } => {
+                "Housner's equation would have to pull the foot down there; the finite elements \
+                    let it go."
             }
             _ => return None,
         })

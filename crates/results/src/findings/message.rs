@@ -70,7 +70,7 @@ impl Finding {
     pub fn by_chance(&self, until: f64) -> Option<String> {
         match *self {
             Self::Overturns { time_s, reference_s } if until < time_s => {
-                let added = ", by chance: a motion hardly different may leave it standing";
+                let added = ", not predictable: a motion hardly different may leave it standing";
                 Some(overturns(time_s, reference_s, added))
             }
             _ => None,
@@ -213,7 +213,10 @@ impl Finding {
                     .fold(by[0], |most, other| if other.1 > most.1 { other } else { most });
                 let nowhere = match holds_to_s {
                     Some(_) => "",
-                    None => ", but nowhere by a twentieth of its peak",
+                    None => {
+                        " (NRMSE), at no time by more than 5 % of its largest displacement: \
+                        peaks are predictable, a history one to one is not"
+                    }
                 };
                 let most = significant(100.0 * most, 2);
                 format!("ill-conditioned: 0.1 % of {what} moves it by {most} %{nowhere}")
@@ -274,13 +277,32 @@ impl Finding {
                 }
             }
             Self::RestitutionOutOfReach { asked, share, least, most } => format!(
-                "restitution {} is {} of equation 2's; springs can be made for {} to {} of it, \
-                    the worse the further from 1",
+                "restitution {} is {} of equation 2's: farther from it than springs were ever \
+                    measured, which is {} to {}",
                 significant(*asked, 4),
                 significant(*share, 3),
                 significant(*least, 3),
                 significant(*most, 3)
             ),
+            Self::SpringsForRestitution { asked, share, equation_2, peaks, nrmse } => {
+                let err = |i: usize| {
+                    let peaks = peaks[i].map_or("unknown".into(), percent);
+                    let nrmse = nrmse[i].map_or("unknown".into(), |x| significant(x, 2));
+                    format!("peaks {peaks}, NRMSE {nrmse}")
+                };
+                let names = ["equation 2's springs", "springs that bounce for it"];
+                let [chosen, other] = if *equation_2 { [0, 1] } else { [1, 0] };
+                format!(
+                    "restitution {} is {} of equation 2's: {} ({}) err less, both errors \
+                        together, than {} ({})",
+                    significant(*asked, 4),
+                    significant(*share, 4),
+                    names[chosen],
+                    err(chosen),
+                    names[other],
+                    err(other)
+                )
+            }
             Self::LandingsUnfinished { finished, all } => {
                 format!("{} of {all} test landings came to no end on these springs", all - finished)
             }

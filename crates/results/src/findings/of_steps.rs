@@ -110,7 +110,7 @@ impl fmt::Display for ProgramFault {
             }
             Self::TooLong { floor } => write!(
                 f,
-                "such steps are too long to be measured, a history errs by {} or more (13 p dt)",
+                "such steps are too long to be measured, a history errs by {} or more",
                 significant(*floor, 2)
             ),
         }
@@ -121,7 +121,7 @@ impl fmt::Display for ProgramAdvice {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
             Self::Step { step_s } => {
-                write!(f, "give --step {step_s} or less (by the law 13 p dt, not measured)")
+                write!(f, "give --step {step_s} or less (by the law of the step, not measured)")
             }
             Self::DefaultIntegrator => {
                 write!(f, "take the default integrator (leave --integrator out)")
@@ -148,8 +148,8 @@ impl fmt::Display for ProgramAdvice {
             ),
             Self::OffLaw { times } => write!(
                 f,
-                "that is {times:.0} times what the step alone makes (13 p dt), so that a shorter \
-                    one may not help: take OpenSees' deck, whose steps follow touches"
+                "that is {times:.0} times what the step alone makes, so that a shorter one may \
+                    not help: take OpenSees' deck, whose steps follow touches"
             ),
             Self::ForOpenSees => {
                 write!(f, "give --for opensees-even, whose integrator loses least")

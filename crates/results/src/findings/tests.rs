@@ -112,8 +112,16 @@ fn what_was_left_out_is_told_with_what_it_would_change() {
     ];
     let told = |changes: Vec<PeakChange>, checked: bool| {
         let (vertical_g, horizontal_g, overturns_s) = (1.84, 0.99, None);
-        Finding::VerticalLeftOut { vertical_g, horizontal_g, overturns_s, changes, checked }
-            .message()
+        let predictable_to_s = None;
+        Finding::VerticalLeftOut {
+            vertical_g,
+            horizontal_g,
+            overturns_s,
+            changes,
+            predictable_to_s,
+            checked,
+        }
+        .message()
     };
     let left_out = "vertical motion (1.84 g) left out; with it";
     assert_eq!(told(changes, true), format!("{left_out}: moment at column base 20.9 MN m"));
@@ -146,6 +154,71 @@ fn what_moves_an_ill_conditioned_motion_the_most_is_told() {
     assert_eq!(of(Some(0.593)).message(), "ill-conditioned: 0.1 % of restitution moves it by 59 %");
     // of files that were written before it was told
     assert_eq!(of(None).message(), "ill-conditioned: 0.1 % of width moves it by 0.97 %");
+}
+
+/// One that nowhere moves by much is not told as one that cannot be predicted.
+#[test]
+fn a_sensitive_motion_whose_peaks_hold_is_told_so() {
+    let told = Finding::IllConditioned {
+        moved_by_width: 0.016,
+        moved_by_scale: 0.01,
+        moved_by_restitution: None,
+        holds_to_s: None,
+        springs_judged: true,
+    };
+    let (message, until) = (told.message(), told.predictable_to());
+    assert!(message.contains("1.6 % (NRMSE)") && message.contains("peaks are predictable"));
+    assert_eq!(until, None);
+}
+
+/// What is largest after a motion with its vertical component can be predicted is not told.
+#[test]
+fn a_vertical_motion_left_out_is_told_as_far_as_it_can_be_predicted() {
+    let told = |overturns_s, predictable_to_s, changes: Vec<PeakChange>| {
+        Finding::VerticalLeftOut {
+            vertical_g: 1.84,
+            horizontal_g: 0.99,
+            overturns_s,
+            changes,
+            predictable_to_s,
+            checked: true,
+        }
+        .message()
+    };
+    let none = told(None, Some(49.08), Vec::new());
+    assert!(none.contains("predictable to 49.08 s only") && !none.contains(" mm"), "{none}");
+    let top = PeakChange {
+        quantity: "top displacement".into(),
+        unit: "m".into(),
+        without: 0.5,
+        with: 0.2,
+    };
+    let some = told(None, Some(49.08), vec![top.clone()]);
+    assert!(some.contains("top 200 mm; with it the motion is predictable to 49.08 s"), "{some}");
+    assert!(told(None, None, vec![top]).ends_with("with it: top 200 mm"));
+    let falls = told(Some(50.0), Some(49.08), Vec::new());
+    assert!(falls.ends_with("at t = 50 s, which is not predictable beyond 49.08 s"), "{falls}");
+    assert!(told(Some(49.0), Some(49.08), Vec::new()).ends_with("at t = 49 s"));
+}
+
+/// Springs that are taken and those that are not, with what both err, whichever they are.
+#[test]
+fn springs_for_another_restitution_are_told_with_those_not_taken() {
+    let told = |equation_2| {
+        Finding::SpringsForRestitution {
+            asked: 0.89,
+            share: 0.9902,
+            equation_2,
+            peaks: [Some(0.011), Some(0.51)],
+            nrmse: [Some(0.294), None],
+        }
+        .message()
+    };
+    let (own, other) =
+        ("equation 2's springs (peaks 1.10 %, NRMSE 0.29)", "(peaks 51.0 %, NRMSE unknown)");
+    let (first, then) = (told(true), told(false));
+    assert!(first.find(own) < first.find(other) && first.contains("0.9902 of equation"), "{first}");
+    assert!(then.find(other) < then.find(own) && then.find(other).is_some(), "{then}");
 }
 
 /// An A-frame 35 m by 7 m that needs mu = b/h = 0.1 to land is slender: what is short is the

@@ -121,6 +121,18 @@ fn el_centro_on_the_papers_frame_rocks_without_warnings() {
     );
 }
 
+/// At rest the ground presses with m (g + a_v); the least of that, and when, is kept.
+#[test]
+fn the_least_press_of_a_body_at_rest_is_that_of_the_ground() {
+    let body = Structure::paper().body::<f64>();
+    let vertical: Vec<f64> = [0.0, 0.3, -0.95, 0.1].map(|g: f64| g * GRAVITY).to_vec();
+    let options = RockingOptions { vertical: Some(vertical.clone().into()), ..Default::default() };
+    let rocking = solve(&body, 0.5, &[0.0; 4], &options);
+    let regime = check(&body, 0.5, (&[0.0; 4], &vertical), 1.0, &rocking, 0.5);
+    assert!((regime.least_press.value - 0.05).abs() < 1e-12, "{regime:?}");
+    assert_eq!((regime.least_press.time, regime.free_flight), (1.0, None));
+}
+
 /// N = 0 where R theta'^2 = g for an upright A-frame leg: a start at that rate and beyond flies.
 #[test]
 fn a_fast_body_leaves_the_ground_where_the_centripetal_force_exceeds_the_weight() {

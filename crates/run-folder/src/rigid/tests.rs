@@ -104,7 +104,7 @@ fn a_block_that_overturns_is_said_to_and_marked() {
 fn an_overturning_that_cannot_be_predicted_is_told_as_chance() {
     let run = run(2.5, Some(BLOCK));
     let mut said = run.said(run.parameters.clone());
-    assert!(!said.verdict().contains("by chance"), "{}", said.verdict());
+    assert!(!said.verdict().contains("not predictable"), "{}", said.verdict());
     let sensitive = Finding::IllConditioned {
         moved_by_width: 1.0,
         moved_by_scale: 1.0,
@@ -116,7 +116,10 @@ fn an_overturning_that_cannot_be_predicted_is_told_as_chance() {
     said.findings = report::filed(own.chain([sensitive]));
     assert_eq!(said.findings[0].remedy.as_deref(), Some("judge by many: tune init sweep"));
     let verdict = said.verdict();
-    assert!(verdict.contains(", by chance: a motion hardly different may leave"), "{verdict}");
+    assert!(
+        verdict.contains(", not predictable: a motion hardly different may leave"),
+        "{verdict}"
+    );
     assert!(verdict.contains("; predictable to 3 s"), "{verdict}");
 }
 

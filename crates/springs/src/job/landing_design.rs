@@ -3,17 +3,21 @@
 
 use std::{cmp::Ordering, f64::consts::TAU};
 
-use super::{CEILING_HZ, JobError, Procedure, evaluate};
+use super::{CEILING_HZ, JobError, Procedure, RestitutionChoice, evaluate};
 use crate::{
     SearchProgress, at_once, capped_springs,
     ladder::RungProgress,
-    landing_simulation,
+    landing_simulation::differs_from_housner,
     paper_procedure::outer::Bracket,
     stiffness_search::{self, DesignOf, Tuned},
     suite::Suites,
 };
 use cases::{Case, Yardstick};
-use dynamics::{effort::Effort, fem::Control};
+use dynamics::{
+    effort::Effort,
+    fem::Control,
+    spring::{Design, Springs},
+};
 use landing::design::{Geometry, springs_at_stiffness};
 use rocking::structure::Body;
 
@@ -34,13 +38,22 @@ pub(super) struct LandingDesign<'a> {
 }
 
 impl LandingDesign<'_> {
+    /// The outer loop, whether a cap decided, and which springs were chosen for another restitution
+    /// than equation 2's.
+    pub(super) fn tune(
+        &self,
+        progress: SearchProgress,
+    ) -> Result<(Tuned, bool, Option<RestitutionChoice>), JobError> {
+        match differs_from_housner(&self.body, self.case.restitution) {
+            true => self.with_restitution(progress),
+            false => self.by_accuracy(progress).map(|(tuned, capped)| (tuned, capped, None)),
+        }
+    }
+
     /// The outer loop, and whether a cap decided.
-    pub(super) fn tune(&self, progress: SearchProgress) -> Result<(Tuned, bool), JobError> {
+    fn by_accuracy(&self, progress: SearchProgress) -> Result<(Tuned, bool), JobError> {
         let tuning = &self.case.tuning;
         let asked = tuning.asked();
-        if landing_simulation::differs_from_housner(&self.body, self.case.restitution) {
-            return self.bouncing(progress);
-        }
         let p = self.body.p();
         let springs = |stiffness: f64| springs_at_stiffness(&self.body, stiffness);
         let said = |rungs: usize, over: f64| {
@@ -83,8 +96,9 @@ impl LandingDesign<'_> {
         Ok((best.ok_or(JobError::NoCandidate)?, true))
     }
 
-    /// Springs of a restitution that is not equation 2's, within the cap; whether it was given.
-    fn bouncing(&self, progress: SearchProgress) -> Result<(Tuned, bool), JobError> {
+    /// Springs that bounce for a restitution that is not equation 2's, within the cap; whether it
+    /// was given.
+    pub(super) fn bouncing(&self, progress: SearchProgress) -> Result<(Tuned, bool), JobError> {
         let tuning = &self.case.tuning;
         let bracket = self.bracket(tuning.max_omega_hz.unwrap_or(BOUNCING_HZ))?;
         let springs = capped_springs::with_restitution(
@@ -95,8 +109,12 @@ impl LandingDesign<'_> {
             progress,
         );
         let springs = springs.ok_or(JobError::NoCandidate)?;
-        let tuned = evaluate(self.suites, &self.body, tuning.asked(), springs, self.effort);
-        Ok((tuned, tuning.max_omega_hz.is_some()))
+        Ok((self.evaluated(springs), tuning.max_omega_hz.is_some()))
+    }
+
+    /// Springs with their errors on the suites.
+    pub(super) fn evaluated(&self, springs: Springs<Design<f64>>) -> Tuned {
+        evaluate(self.suites, &self.body, self.case.tuning.asked(), springs, self.effort)
     }
 
     /// The ladder up to an Omega_n/p, from where landings hold; if none of those rungs does, the
@@ -181,9 +199,7 @@ impl LandingDesign<'_> {
             found.extend(self.procedure.at(cap, progress).map(|tuned| tuned.best.springs));
         }
         let asked = self.case.tuning.asked();
-        let judged = found
-            .into_iter()
-            .map(|springs| evaluate(self.suites, &self.body, asked, springs, self.effort));
+        let judged = found.into_iter().map(|springs| self.evaluated(springs));
         let typical = |tuned: &Tuned| typical(tuned, asked.by);
         let mut judged: Vec<Tuned> = judged.filter(|tuned| self.settles(tuned)).collect();
         judged.sort_by(|a, b| typical(a).total_cmp(&typical(b)));
@@ -229,7 +245,7 @@ impl LandingDesign<'_> {
 
 /// The typical error of springs: the geometric mean of that on the record and of the median of
 /// synthetic motions.
-fn typical(tuned: &Tuned, yardstick: Yardstick) -> f64 {
+pub(super) fn typical(tuned: &Tuned, yardstick: Yardstick) -> f64 {
     let measured = tuned.best.errors.by(yardstick);
     let median = measured.synthetic_median.map(|median| median.value);
     match (measured.record, median) {

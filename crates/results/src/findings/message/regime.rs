@@ -2,7 +2,7 @@
 
 use super::{on, s};
 use crate::findings::{Ending, Finding};
-use files::message::{percent, significant};
+use files::message::{percent, quantity, significant};
 
 /// Share of what a footing bears at rest below which its load is said where friction is.
 const LIGHT: f64 = 0.5;
@@ -33,6 +33,18 @@ impl Finding {
                     s(*time_s)
                 )
             }
+            Self::HardlyPresses { time_s, press_over_weight } => format!(
+                "Housner's body nearly leaves the ground: at t = {} it presses with {} of its \
+                    weight",
+                s(*time_s),
+                percent(*press_over_weight)
+            ),
+            Self::WalksOnSprings { largest_m, end_m } => format!(
+                "on springs the feet walk by up to {} ({} at the end), which Housner's do not: the \
+                    top's displacement has that in it, the drift ratio has not",
+                quantity(*largest_m, "m"),
+                quantity(*end_m, "m")
+            ),
             // given enough of it a slender body lands as Housner says
             Self::TooStocky { restitution, friction_needed, available }
                 if *restitution > 0.0 && *friction_needed <= USUAL_FRICTION =>

@@ -13,12 +13,62 @@ impl Finding {
     /// What was taken, and what was not.
     pub(super) fn taken(&self) -> Option<String> {
         Some(match self {
-            Self::VerticalLeftOut { vertical_g, overturns_s: Some(time), .. } => format!(
-                "with the vertical motion that is left out ({} g) it overturns at t = {} s",
-                significant(*vertical_g, 3),
-                significant(*time, 4)
-            ),
-            Self::VerticalLeftOut { vertical_g, horizontal_g, changes, checked, .. } => {
+            Self::VerticalLeftOut { .. } => return self.vertical_left_out(),
+            Self::Doubt { message, .. } => message.clone(),
+            Self::DeckJudged { judged_s, record_s, end } => {
+                let why = match end {
+                    DeckEnd::Record => "",
+                    DeckEnd::History => ": then it falls over, or the history ends",
+                    DeckEnd::Foretold => {
+                        ": from then on differences of 1e-5, as between two programs, show"
+                    }
+                    DeckEnd::IllConditioned => ": beyond that, 0.1 % moves the motion too much",
+                    DeckEnd::Flight => ": then the ground falls faster than the body",
+                    DeckEnd::Slides => ": then a corner slides on, and friction decides",
+                };
+                format!(
+                    "tune verify judges the deck over the first {} s of {} s{why}",
+                    significant(*judged_s, 4),
+                    significant(*record_s, 4)
+                )
+            }
+
+            _ => return None,
+        })
+    }
+
+    /// What a vertical motion that is left out would change.
+    fn vertical_left_out(&self) -> Option<String> {
+        Some(match self {
+            Self::VerticalLeftOut {
+                vertical_g, overturns_s: Some(time), predictable_to_s, ..
+            } => {
+                let doubt = predictable_to_s.filter(|until| until < time).map(|until| {
+                    format!(", which is not predictable beyond {} s", significant(until, 4))
+                });
+                format!(
+                    "with the vertical motion that is left out ({} g) it overturns at t = {} s{}",
+                    significant(*vertical_g, 3),
+                    significant(*time, 4),
+                    doubt.unwrap_or_default()
+                )
+            }
+            Self::VerticalLeftOut {
+                vertical_g,
+                horizontal_g,
+                changes,
+                predictable_to_s,
+                checked,
+                ..
+            } => {
+                let until = predictable_to_s.map(|until| {
+                    format!(
+                        "; with it the motion is predictable to {} s only, and what is largest \
+                            later is not told",
+                        significant(until, 4)
+                    )
+                });
+                let until = until.unwrap_or_default();
                 // what grows the most first; the displacement, and the axial force, which a
                 // section is designed by, in any case
                 let ratio = |c: &PeakChange| c.with / c.without;
@@ -48,6 +98,7 @@ impl Finding {
                 let left_out =
                     format!("vertical motion ({vertical} g beside {across} g) is left out");
                 match changed.is_empty() {
+                    true if !until.is_empty() => left_out + &until,
                     true if changes.is_empty() || changes.iter().any(changes_it) => left_out,
                     true => format!(
                         "{left_out}: no displacement or force that is given changes by more \
@@ -55,31 +106,12 @@ impl Finding {
                         percent(LEAST_CHANGE)
                     ),
                     false => format!(
-                        "vertical motion ({vertical} g) left out; with it{}: {}",
+                        "vertical motion ({vertical} g) left out; with it{}: {}{until}",
                         if *checked { "" } else { " (unchecked)" },
                         changed.join(", ")
                     ),
                 }
             }
-            Self::Doubt { message, .. } => message.clone(),
-            Self::DeckJudged { judged_s, record_s, end } => {
-                let why = match end {
-                    DeckEnd::Record => "",
-                    DeckEnd::History => ": then it falls over, or the history ends",
-                    DeckEnd::Foretold => {
-                        ": from then on differences of 1e-5, as between two programs, show"
-                    }
-                    DeckEnd::IllConditioned => ": beyond that, 0.1 % moves the motion too much",
-                    DeckEnd::Flight => ": then the ground falls faster than the body",
-                    DeckEnd::Slides => ": then a corner slides on, and friction decides",
-                };
-                format!(
-                    "tune verify judges the deck over the first {} s of {} s{why}",
-                    significant(*judged_s, 4),
-                    significant(*record_s, 4)
-                )
-            }
-
             _ => return None,
         })
     }

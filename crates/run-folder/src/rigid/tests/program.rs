@@ -67,7 +67,7 @@ fn a_program_that_is_asked_for_has_its_sheet() {
         assert!(last.contains(says) && last.ends_with(&format!("out/decks/{sheet}")), "{last}");
         // its springs first, and nothing of its lines cut
         let place = |what: &str| text.find(what).unwrap();
-        assert!(place(", 1 ms: vertical") < place("OpenSees deck only: vertical"), "{text}");
+        assert!(place(", 1 ms: vertical") < place("OpenSees, adaptive: vertical"), "{text}");
         let lines = text.lines().skip_while(|line| !line.starts_with(name));
         let of_program: Vec<_> = lines.map(str::trim).collect();
         let of_program = of_program.join(" ");
