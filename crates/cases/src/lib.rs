@@ -155,8 +155,9 @@ pub struct Case {
     /// The outer loop's settings.
     pub tuning: Tuning,
     /// A program with fixed time steps that springs are asked for besides: they are the `program`
-    /// of what is tuned. There are none of a body with members, of another restitution than
-    /// equation 2's, and of a step or an integrator that cannot be. None: for SAP2000 at 1 ms.
+    /// of what is tuned. There are none of a body with members, none beside springs that bounce for
+    /// another restitution, and none of a step or an integrator that cannot be. None: for SAP2000
+    /// at 1 ms.
     pub program: Option<FixedStepProgram>,
     /// The frequency response wanted by the paper's procedure.
     pub target: Target,

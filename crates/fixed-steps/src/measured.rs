@@ -4,7 +4,7 @@
 use dynamics::spring::{Chain, Springs};
 use rocking::{
     conditioning::Conditioning,
-    housner::{RockingOptions, RockingOutcome, history},
+    housner::{RockingOptions, RockingOutcome, solve},
     motion::{largest_magnitude, nrmse},
     statistics::quantile,
     structure::Body,
@@ -41,10 +41,16 @@ pub struct StepErrors {
 }
 
 impl ReferenceHistory {
-    /// Of a motion, if it rocks the body without toppling it; horizontal motion, equation 2's
-    /// restitution.
-    pub fn new(body: &Body<f64>, dt: f64, accel: Vec<f64>) -> Option<Self> {
-        let rocking = history(body, dt, &accel);
+    /// Of a motion, if it rocks the body without toppling it; horizontal motion; velocity
+    /// restitution, equation 2's if none is given.
+    pub fn new(
+        body: &Body<f64>,
+        restitution: Option<f64>,
+        dt: f64,
+        accel: Vec<f64>,
+    ) -> Option<Self> {
+        let options = RockingOptions { restitution, ..RockingOptions::default() };
+        let rocking = solve(body, dt, &accel, &options);
         let stands = rocking.outcome == RockingOutcome::Rocked && !rocking.impacts.is_empty();
         stands.then(|| Self { dt, u: rocking.motion(body).u, accel })
     }
@@ -100,7 +106,7 @@ impl WellConditioned {
         let (p, alpha) = (body.p(), body.alpha());
         let reference = |index: usize| {
             let record = synthetic::record(seed, index, p, alpha);
-            let reference = ReferenceHistory::new(body, record.dt, record.accel)?;
+            let reference = ReferenceHistory::new(body, None, record.dt, record.accel)?;
             let conditioning =
                 Conditioning::new(body, reference.dt, &reference.accel, &RockingOptions::default());
             conditioning.well_conditioned().then_some(reference)

@@ -27,10 +27,7 @@
 pub mod instead;
 
 use self::instead::{ProgramInstead, USELESS, deciding, instead};
-use super::{
-    landing_simulation::differs_from_housner,
-    suite::{JudgedOn, Suites},
-};
+use super::suite::{JudgedOn, Suites};
 use cases::Case;
 use dynamics::{
     effort::Effort,
@@ -117,10 +114,11 @@ struct ProgramSuites {
 impl ProgramSuites {
     /// The motions of a run's suites; more of them only where a user asked.
     fn of(body: &Body<f64>, suites: &Suites, asked: bool, effort: &Effort) -> Self {
+        let restitution = suites.another_restitution();
         let of = |suites: &Suites, on: JudgedOn| -> Vec<ReferenceHistory> {
             let motions: Vec<_> = suites.motions(on).collect();
             let answers = parallel::map(&motions, |(dt, accel)| {
-                ReferenceHistory::new(body, *dt, accel.to_vec())
+                ReferenceHistory::new(body, restitution, *dt, accel.to_vec())
             });
             answers.into_iter().flatten().collect()
         };
@@ -129,7 +127,10 @@ impl ProgramSuites {
         if !asked {
             return Self { synthetic, earthquakes, others: Vec::new() };
         }
-        let mut more = of(&suites.more(body.restitution(), effort), JudgedOn::Synthetic);
+        let mut more = of(
+            &suites.more(restitution.unwrap_or(body.restitution()), effort),
+            JudgedOn::Synthetic,
+        );
         let others = more.split_off(ALSO_CHOOSE.min(more.len()));
         synthetic.append(&mut more);
         Self { synthetic, earthquakes, others }
@@ -137,8 +138,8 @@ impl ProgramSuites {
 }
 
 impl ProgramSprings {
-    /// Springs for the program that a case asks for, or for the usual one; none for a restitution
-    /// other than equation 2's, which such springs do not have, and none for a body with members.
+    /// Springs for the program that a case asks for, or for the usual one; none for a body with
+    /// members. They have equation 2's restitution, and are measured against the case's.
     pub(crate) fn of_case(
         case: &Case,
         body: &Body<f64>,
@@ -146,7 +147,7 @@ impl ProgramSprings {
         effort: &Effort,
     ) -> Option<Self> {
         // no program's model of such steps has members
-        if differs_from_housner(body, case.restitution) || !case.members.is_none() {
+        if !case.members.is_none() {
             return None;
         }
         let program = case.program.unwrap_or_else(FixedStepProgram::usual);

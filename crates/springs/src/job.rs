@@ -13,6 +13,7 @@ use parallel::join;
 use super::{
     SearchProgress,
     fixed_steps::ProgramSprings,
+    landing_simulation::differs_from_housner,
     paper_procedure::outer::{self, Benchmark},
     stiffness_search::{Rung, Tuned},
     suite::Suites,
@@ -71,8 +72,8 @@ pub struct Job {
     /// None where the record cannot be tuned on: it does not lift the structure, or Housner's
     /// answer is ill-conditioned.
     pub paper: Option<Paper>,
-    /// Springs for a program with fixed time steps; none for a restitution that such springs have
-    /// not.
+    /// Springs for a program with fixed time steps; none beside springs that bounce for another
+    /// restitution.
     pub program: Option<ProgramSprings>,
     /// What cut the job, if anything was left out of it, and what that is.
     pub cut: Option<CutBy>,
@@ -200,10 +201,14 @@ impl SearchedSprings {
         let sampled =
             (compared && !effort.stops()).then(|| procedure.sampled_beside(hz, progress)).flatten();
         let for_program = if effort.stopped() { effort } else { &rest };
+        // springs that bounce for another restitution have no like for steps of one size
+        let bounces = differs_from_housner(&body, case.restitution)
+            && restitution_choice.is_none_or(|choice| !choice.equation_2);
         let (paper, program) = join(
             || sampled.and_then(|sampled| procedure.refined_beside(sampled, progress)),
             || early.unwrap_or_else(|| program(for_program)),
         );
+        let program = program.filter(|_| !bounces);
         effort.join(&rest);
         if suites.has_whole_record() {
             not_done.extend(left_out(NotDone::PaperProcedure, effort));
@@ -219,8 +224,10 @@ impl SearchedSprings {
         progress: SearchProgress,
     ) -> Result<Self, JobError> {
         let (tuned, capped, paper) = procedure.tune(suites, progress)?;
+        let body = &procedure.benchmark.body;
+        let own = !differs_from_housner(body, procedure.case.restitution);
         let program =
-            ProgramSprings::of_case(procedure.case, &procedure.benchmark.body, suites, effort);
+            own.then(|| ProgramSprings::of_case(procedure.case, body, suites, effort)).flatten();
         let not_done = left_out(NotDone::Stiffnesses, effort);
         let restitution_choice = None;
         Ok(Self { tuned, capped, restitution_choice, paper, program, not_done })

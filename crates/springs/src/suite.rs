@@ -14,6 +14,7 @@ pub use accuracy::{Accuracy, JudgedOn, MeasuredErrors, PeakAccuracy, Statistic};
 use accuracy::{ERRORS, geometric_mean};
 use reference::{ReferenceMotion, TrialErrors, WantedMotion, errors, errors_watched};
 
+use crate::landing_simulation::differs_from_housner;
 use cases::Yardstick;
 use dynamics::{
     effort::Effort,
@@ -45,6 +46,8 @@ pub const SEED: u64 = 1940;
 #[derive(Clone, Debug)]
 pub struct Suites {
     body: Body<f64>,
+    /// Velocity restitution of its landings.
+    restitution: f64,
     record: Option<ReferenceMotion>,
     synthetic: Vec<ReferenceMotion>,
     earthquakes: Vec<ReferenceMotion>,
@@ -98,6 +101,7 @@ impl Suites {
         earthquakes.extend(mild);
         Self {
             body: *body,
+            restitution,
             record: record
                 .and_then(|record| fit(record.clone(), WantedMotion::WellConditionedWhileItStands)),
             synthetic,
@@ -116,6 +120,7 @@ impl Suites {
         let others = LOOKED_AT..LOOKED_AT + MORE_LOOKED_AT;
         Self {
             body: self.body,
+            restitution,
             record: None,
             synthetic: first(MORE, others, effort, |i| well(synthetic::record(SEED, i, p, alpha))),
             earthquakes: Vec::new(),
@@ -131,6 +136,12 @@ impl Suites {
             JudgedOn::Earthquakes => &self.earthquakes,
         };
         trials.iter().map(|trial| (trial.dt, trial.accel.as_slice()))
+    }
+
+    /// The restitution that the motions were followed with, if it is not equation 2's.
+    pub(crate) fn another_restitution(&self) -> Option<f64> {
+        let other = differs_from_housner(&self.body, self.restitution);
+        other.then_some(self.restitution)
     }
 
     /// Whether the record is one of the motions judged on.

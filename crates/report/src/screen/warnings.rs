@@ -10,7 +10,7 @@ const WARNING: &str = "warning   ";
 fn urgency(finding: &Finding) -> usize {
     match finding {
         // whether it stands, and where
-        Finding::Sliding { .. } => 0,
+        Finding::Sliding { .. } | Finding::SpringsForRestitution { .. } => 0,
         Finding::FeetMoved { .. } | Finding::WalksOnSprings { .. } => 1,
         Finding::SearchCut { .. } | Finding::IllConditioned { .. } => 1,
         Finding::VerticalLeftOut { .. } => 2,

@@ -163,6 +163,12 @@ mod tests {
         assert!(own.restitution_choice.is_none());
         assert!(near.restitution_choice.unwrap().equation_2, "{:?}", near.restitution_choice);
         assert_eq!(near.springs, own.springs);
+        // and those of programs with steps of one size
+        let of_steps = [&near, &own].map(|job| job.program.as_ref().unwrap());
+        let [beside, equal] = of_steps.map(|of| of.springs.body.restitution());
+        assert_eq!(beside, equal);
+        // whose histories are those of the restitution asked for: their errors differ
+        assert_ne!(of_steps[0].synthetic, of_steps[1].synthetic);
         let others = Suites::of_seed(7, &near.body, 1.002 * restitution, None);
         let chains = near.springs.chains(near.body.mass);
         let found = others.accuracy(&chains, (Control::default(), &Effort::unbounded()));
