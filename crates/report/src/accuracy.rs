@@ -31,7 +31,7 @@ pub(crate) enum Unjudged {
 impl Unjudged {
     fn words(self) -> &'static str {
         match self {
-            Self::TooSensitive => "this record is too sensitive",
+            Self::TooSensitive => "this record is too sensitive to judge on",
             Self::NothingRocks => "this record: it does not rock",
             Self::NoImpact => "this record: it overturns without an impact",
             Self::PivotPulls => "this record: Housner's body leaves the ground",
