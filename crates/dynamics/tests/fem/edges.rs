@@ -2,7 +2,10 @@
 //! where contact only just changes, closed forms, and Housner's body where stiff springs must give
 //! it.
 
-use dynamics::fem::{Analysis, History, HistoryOutcome, Start};
+use dynamics::{
+    fem::{Analysis, Control, History, HistoryOutcome, Start},
+    spring::{Chain, Springs},
+};
 use rocking::{housner, motion::nrmse, scalar::GRAVITY, structure::Structure};
 use strong_motion::Record;
 
@@ -20,6 +23,34 @@ const LIMIT: f64 = 0.25 * GRAVITY;
 fn shaken(hz: f64, dt: f64, accel: &[f64]) -> History {
     let record = Record::new("made up", dt, accel.to_vec()).unwrap();
     settled(&block(), plastic(hz, block().mass_kg), &record)
+}
+
+/// A record that begins with a push below uplift, and falls: the springs ring at its start, and a
+/// foot all but lifts within a step that goes on to the next sample. In the end the block leans as
+/// statics say, m a h over the stiffness of both feet, 2 b^2 k, less m g h, which is little.
+#[test]
+fn a_push_that_all_but_lifts_a_foot_at_the_start_is_followed_to_its_end() {
+    let structure = Structure::block(2.6, 0.7, 1e3).unwrap();
+    let springs = Springs {
+        vertical: Chain { k1: 1.373e14, k2: 9.624e11, m2: 600.5, c: 1.943e8 },
+        horizontal: Chain { k1: 2.196e15, k2: 2.196e15, m2: 300.0, c: 2.964e9 },
+    };
+    let stiffness = 2.0 * 0.35_f64.powi(2) * springs.vertical.in_series();
+    for fall in [-20.0, -8.5, -4.0, 8.5] {
+        for push in (0..40).map(|i| 1.8 + 0.02 * f64::from(i)) {
+            let accel: Vec<f64> =
+                (0..6).map(|i| f64::copysign(push, fall) - 0.01 * fall * f64::from(i)).collect();
+            let control = Control { most_steps: 20_000, ..Control::default() };
+            let history =
+                Analysis { control, ..Analysis::new(structure.body(), springs, 0.01, &accel) }
+                    .simulate();
+            let what = format!("{push:.2} m/s2, {fall} m/s3");
+            assert_eq!(history.outcome, HistoryOutcome::Completed, "{what}");
+            let lean = 1e3 * accel[5] * 1.3 / stiffness;
+            let error = (history.motion.theta[5] + lean).abs();
+            assert!(error < 0.01 * lean.abs(), "{what}: {error:e} of {lean:e}");
+        }
+    }
 }
 
 /// Two neighbouring numbers, the one that `passes` and the one that does not.

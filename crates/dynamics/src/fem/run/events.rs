@@ -153,7 +153,8 @@ impl TimeLoop<'_> {
         } else {
             event.high = h;
         }
-        let next = h - correction;
+        // what comes after the step is none of its events
+        let next = (h - correction).min(event.whole);
         event.h = if usable && next > event.low && next < event.high {
             next
         } else if event.high.is_finite() {
