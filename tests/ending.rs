@@ -225,3 +225,12 @@ fn a_record_cut_in_the_largest_swing_is_told() {
     };
     assert!(told("9.5") && !told("12"));
 }
+
+/// Without a case `tune housner` takes the structure of `tune run`, as `tune init` writes it.
+#[test]
+fn housner_s_solution_without_a_case_is_that_of_the_default_case() {
+    let folder = TestFolder::with(&[("case.toml", include_str!("../tuning/paper.toml"))]);
+    let peaks = |line: &str| folder.runs(line).stderr;
+    assert_eq!(peaks("housner --out a.csv"), peaks("housner case.toml --out b.csv"));
+    assert_eq!(folder.bytes("a.csv"), folder.bytes("b.csv"));
+}

@@ -13,7 +13,6 @@ use cases::{Case, doubts::of_excitation};
 use rocking::{
     housner::{self, RockingOutcome},
     motion::{peak, samples_until},
-    structure::Structure,
 };
 use run_folder::{
     place::{file_in, not_an_input, write_file},
@@ -40,16 +39,14 @@ pub struct HousnerOptions {
 }
 
 pub fn run(o: &HousnerOptions) -> Result<(), CommandError> {
-    let (structure, e, default) = match &o.case {
-        Some(path) => {
-            let case = Case::read_asking(path, &o.record.of_case())?;
-            (case.structure, Some(case.restitution), case)
-        }
-        None => (Structure::paper(), None, Case::paper()?),
+    let case = match &o.case {
+        Some(path) => Case::read_asking(path, &o.record.of_case())?,
+        // the one that `tune run` takes
+        None => Case::paper()?,
     };
-    let members = default.members;
-    let excitation = o.record.excitation_of_case(&default.excitation, &default.notices)?;
-    let of_structure = if o.case.is_some() { default.doubts_of_structure() } else { Vec::new() };
+    let members = case.members;
+    let excitation = o.record.excitation_of_case(&case.excitation, &case.notices)?;
+    let of_structure = if o.case.is_some() { case.doubts_of_structure() } else { Vec::new() };
     let out = o.out.as_deref().map(|path| file_in(path, "housner.csv")).transpose()?;
     if let Some(path) = &out {
         let inputs = [o.case.as_ref(), o.record.record.as_ref()].into_iter().flatten();
@@ -58,9 +55,9 @@ pub fn run(o: &HousnerOptions) -> Result<(), CommandError> {
     let record = excitation.used()?;
     look_again(&of_structure);
     look_again(&of_excitation(&excitation));
-    let body = structure.body::<f64>();
+    let body = case.structure.body::<f64>();
     let options = housner::RockingOptions {
-        restitution: restitution(o.restitution)?.or(e),
+        restitution: restitution(o.restitution)?.or(Some(case.restitution)),
         vertical: record.vertical_accel(),
         members,
         ..Default::default()
