@@ -204,3 +204,21 @@ fn what_does_not_fit_is_refused_in_one_line() {
         assert!(err.contains(words), "{err}");
     }
 }
+
+/// A column that is there but cannot be one of accelerations is not called missing.
+#[test]
+fn a_vertical_column_that_cannot_be_read_is_told_by_its_own_fault() {
+    let rows = (0..40).map(|i| {
+        let along = f64::from(i) * if i % 2 == 0 { 0.1 } else { -0.1 };
+        format!("{:?},{along:?},2.943\n", f64::from(i) * 0.02)
+    });
+    let table = format!("time (s),NS (m/s2),UP (m/s2)\n{}", rows.collect::<String>());
+    let case = format!("{STRUCTURE}[record]\nfile = \"table.csv\"\ncomponent = \"NS\"\n");
+    let dir = TestFolder::with(&[("table.csv", &table), ("case.toml", &case)]);
+    dir.runs("housner case.toml");
+    let told = "table.csv: column UP (m/s2) never changes its sign";
+    for line in ["housner case.toml --vertical auto", "record table.csv --column 3"] {
+        let refused = dir.refuses(line);
+        assert!(refused.contains(told), "{line}: {refused}");
+    }
+}

@@ -10,7 +10,7 @@ use self::line::{
 };
 use super::column;
 use super::header::{self, TimeUnit, is_comment, rate_in, step_in};
-use super::parsed::{Parsed, Samples, mean};
+use super::parsed::{Channel, Parsed, Samples, mean};
 use super::text::{lines, number, precision, quote};
 use super::timing::Times;
 use super::{Direction, ReadOptions, RecordError, Units, units};
@@ -38,14 +38,16 @@ pub(super) fn parse(file: &str, text: &str, options: &ReadOptions) -> Result<Par
     for channel in &mut parsed.channels {
         (channel.name, channel.direction) = (Some(wanted.trim().to_owned()), direction);
     }
-    // what cannot be read is none to take with it
+    // what cannot be read is none to take with it; who asks for it hears why
     let others = (0..table.columns).filter(|i| *i != index && column::is_vertical(*i, all));
     for (i, name) in others.filter_map(|i| Some((i, *all.get(i)?))) {
         let (other, names) = table.chosen(i, all);
-        for mut channel in series(file, other, &names, options).into_iter().flat_map(|p| p.channels)
-        {
-            (channel.name, channel.direction) = (Some(name.to_owned()), Direction::Vertical);
-            parsed.channels.push(channel);
+        match series(file, other, &names, options) {
+            Ok(other) => parsed.channels.extend(other.channels.into_iter().map(|channel| {
+                let (name, direction) = (Some(name.to_owned()), Direction::Vertical);
+                Channel { name, direction, ..channel }
+            })),
+            Err(error) => parsed.vertical_refused = parsed.vertical_refused.or(Some(error)),
         }
     }
     Ok(parsed)
@@ -318,6 +320,12 @@ impl<'a> NumberTable<'a> {
         Ok(true)
     }
 
+    /// What the column beside the times is called, for a message.
+    fn values_column(&self) -> String {
+        self.column_name
+            .map_or("the second column".into(), |name| format!("column {}", quote(name)))
+    }
+
     /// Refuse a first column of two that is no time.
     fn check_times(
         &self,
@@ -337,7 +345,7 @@ impl<'a> NumberTable<'a> {
         let negative = second.all(|value| *value < 0.0);
         let named = self.header.iter().any(|(_, line)| line.to_ascii_lowercase().contains("acc"));
         if (positive || negative) && self.lines >= ONE_SIGN_ROWS && !named && !options.baseline {
-            return Err(RecordError::OneSign { file: file() });
+            return Err(RecordError::OneSign { file: file(), column: self.values_column() });
         }
         Ok(())
     }

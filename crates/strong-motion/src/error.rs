@@ -224,13 +224,13 @@ pub enum RecordError {
          pass --dt, or write the times"
     )]
     RowIndex { file: String, line: usize },
-    /// The second column never changes its sign: a spectrum.
+    /// The column of the values never changes its sign: a spectrum.
     #[error(
-        "{file}: the second column never changes its sign, as a spectrum over its periods and \
+        "{file}: {column} never changes its sign, as a spectrum over its periods and \
          unlike an accelerogram; if it is one, name the columns 'time, acceleration' or pass \
          --baseline"
     )]
-    OneSign { file: String },
+    OneSign { file: String, column: String },
     /// The numbers are counts of a digitiser without a scale.
     #[error(
         "{file}: the numbers are counts of a digitiser without a scale; convert them to \

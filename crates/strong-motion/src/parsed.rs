@@ -16,6 +16,8 @@ pub(super) struct Parsed {
     pub milliseconds: bool,
     /// The time step that the header says, where its times have another (s).
     pub other_step: Option<f64>,
+    /// Why the first column of a vertical motion that cannot be read is none.
+    pub vertical_refused: Option<RecordError>,
 }
 
 /// One component.

@@ -53,6 +53,8 @@ pub struct Recording {
     milliseconds: bool,
     /// The time step that the header says, where its times have another (s).
     other_step: Option<f64>,
+    /// Why a column of the vertical motion that cannot be read is none.
+    pub(super) vertical_refused: Option<RecordError>,
     /// The vertical component asked for, and how many samples after the record's end it has.
     vertical: Option<(Record, usize)>,
     pub(super) file: String,
@@ -144,6 +146,7 @@ impl Recording {
             row_by_row: parsed.row_by_row,
             milliseconds: parsed.milliseconds,
             other_step: parsed.other_step,
+            vertical_refused: parsed.vertical_refused,
             vertical: None,
             file: file.clone(),
         };

@@ -143,21 +143,17 @@ impl Recording {
     /// Index of the only vertical component.
     ///
     /// # Errors
-    /// There is none, or several.
+    /// There is none, or several; why the only one that the file names cannot be read.
     fn only_vertical(&self) -> Result<usize, RecordError> {
         let mut all = (0..self.components.len())
             .filter(|&i| self.components[i].direction == Direction::Vertical);
-        match (all.next(), all.next()) {
-            (Some(only), None) => Ok(only),
-            (first, _) => Err(RecordError::NoVertical {
-                file: self.file.clone(),
-                found: if first.is_some() {
-                    "several vertical components"
-                } else {
-                    "no vertical component"
-                },
-            }),
-        }
+        let found = match (all.next(), all.next(), &self.vertical_refused) {
+            (Some(only), None, _) => return Ok(only),
+            (None, _, Some(error)) => return Err(error.clone()),
+            (None, ..) => "no vertical component",
+            (Some(_), ..) => "several vertical components",
+        };
+        Err(RecordError::NoVertical { file: self.file.clone(), found })
     }
 
     /// The vertical component asked for, checked against the one that a run takes, and how many
