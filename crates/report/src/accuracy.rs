@@ -13,6 +13,9 @@ use validation::PeakErrors;
 /// What the record of the run is called.
 pub(crate) const THIS_RECORD: &str = "this record";
 
+/// What the synthetic motions are called on a row below that of their median.
+const NINE_OF_TEN: &str = "90 % of these";
+
 /// Why springs are not judged on the record of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Unjudged {
@@ -141,7 +144,7 @@ impl AccuracyReport {
             .map(|_| row(THIS_RECORD.into(), 1, &|a| a.record, 1.0, worst(|p| p.record)));
         let words = |n| format!("{n} synthetic motions (median)");
         let median = statistics(|a| a.synthetic_median, words, 1.0, worst(|p| p.synthetic_median));
-        let p90 = statistics(|a| a.synthetic_p90, |_| "90 % of these".into(), LOOSER, None);
+        let p90 = statistics(|a| a.synthetic_p90, |_| NINE_OF_TEN.into(), LOOSER, None);
         let looser = a.judged().looser_on_earthquakes();
         let words = |n| format!("{n} earthquake-like ones (mean)");
         let mean = statistics(|a| a.earthquakes_mean, words, looser, worst(|p| p.earthquakes_mean));
@@ -212,7 +215,32 @@ impl AccuracyReport {
         if self.reached {
             said.reverse();
         }
-        [measured, said].concat()
+        [measured, self.missed_beyond(sets).into_iter().collect(), said].concat()
+    }
+
+    /// What was asked for and missed on a set beyond the first so many, if not on one of these.
+    fn missed_beyond(&self, sets: usize) -> Option<String> {
+        let over = |found: Option<f64>, allowed: Option<f64>| {
+            allowed.zip(found).is_some_and(|(allowed, found)| found > allowed)
+        };
+        let misses = |row: &&AccuracyOn| {
+            over(row.history, row.history_allowed) || over(row.peaks, row.peaks_allowed)
+        };
+        if self.reached || self.measured().take(sets).any(|row| misses(&row)) {
+            return None;
+        }
+        let row = self.measured().find(misses)?;
+        let found = match (row.history, row.peaks) {
+            (Some(nrmse), _) if self.history_asked.is_some() => {
+                format!("NRMSE {}", significant(nrmse, 2))
+            }
+            (_, peaks) => format!("peaks within {}", within(peaks?, row.worst)),
+        };
+        let on = match &row.on[..] {
+            NINE_OF_TEN => format!("90 % of {} synthetic motions", row.count),
+            on => on.replace(" ones ", " motions "),
+        };
+        Some(format!("{on}: {found}"))
     }
 
     /// Sets that something was measured on, the record among them.
@@ -301,6 +329,19 @@ mod tests {
             ["this record: peaks within 0.013 % (uplift), NRMSE 2.2e-5", "asked: NRMSE 0.002"]
         );
         assert_eq!(report.table().rows[0][2], "0.013 %");
+        // what misses is told, even where its row is not
+        let first = report.measured[0].clone();
+        let (median, many) = ("24 synthetic motions (median)".to_string(), 24);
+        let missed = AccuracyOn { on: median, count: many, history: Some(0.019), ..first.clone() };
+        report = AccuracyReport { reached: false, measured: vec![first, missed], ..report };
+        let short = report.short(1, None);
+        assert_eq!(
+            short[1..],
+            ["24 synthetic motions (median): NRMSE 0.019", "NOT reached: NRMSE 0.002"]
+        );
+        assert_eq!(report.short(2, None).len(), short.len());
+        report.measured[1].on = NINE_OF_TEN.into();
+        assert_eq!(report.short(1, None)[1], "90 % of 24 synthetic motions: NRMSE 0.019");
         report.measured.clear();
         assert!(report.sentence().starts_with("not measured"));
     }
