@@ -28,17 +28,18 @@ const LADDER_HZ: [f64; 8] = [160.0, 320.0, 640.0, 1280.0, 2560.0, 5120.0, 10240.
 pub struct TradeoffPoint {
     /// Omega_n of the vertical units (Hz).
     pub omega_n_hz: f64,
-    /// Whether these springs were chosen.
+    /// Whether springs of this Omega_n were chosen.
     pub chosen: bool,
     /// NRMSE of u on the springs of the landing: on the record, or the median of the synthetic
     /// motions where the record cannot be followed one to one.
     pub landing: Option<f64>,
     /// The same of the paper's procedure, springs up to this Omega_n.
     pub arr: Option<f64>,
-    /// Largest vertical foot force on the record, in weights: the springs' force in a landing, not
-    /// the structure's.
+    /// Largest vertical foot force on the record, in weights, on the springs of the landing: the
+    /// springs' force, not the structure's.
     pub foot_force_weights: f64,
-    /// Steps that an exported deck takes on the record at least, by its own rule along our history.
+    /// Steps that an exported deck of these takes on the record at least, by its own rule along our
+    /// history.
     pub deck_steps: usize,
 }
 
@@ -52,13 +53,15 @@ pub fn front(job: &Job, progress: &(dyn Fn(usize, usize) + Sync)) -> Vec<Tradeof
     let (done, total) = (AtomicUsize::new(0), 2 * ladder.len());
     let told = || progress(done.fetch_add(1, Ordering::Relaxed) + 1, total);
     progress(0, total);
+    // springs of the paper's procedure are no design from the geometry
+    let by_paper = job.paper.as_ref().is_some_and(|of| of.is_asked);
     let paper = || paper_errors(job, &ladder, &told);
     // the stiffest takes longest, and is begun first
     let begun = AtomicUsize::new(0);
     let ours = || {
         parallel::map_range(0..ladder.len(), |_| {
             let hz = ladder[ladder.len() - 1 - begun.fetch_add(1, Ordering::Relaxed)];
-            let springs = if hz == chosen {
+            let springs = if hz == chosen && !by_paper {
                 Some(job.springs)
             } else {
                 springs_at_stiffness(&job.body, TAU * hz / job.body.p())
@@ -91,7 +94,7 @@ fn error(job: &Job, springs: &Springs<Design<f64>>) -> Option<f64> {
 
 /// Errors of the paper's procedure at these Omega_n (Hz).
 fn paper_errors(job: &Job, ladder: &[f64], told: &(dyn Fn() + Sync)) -> Vec<Option<f64>> {
-    let Some(Paper { vertical, horizontal, tuned }) = &job.paper else {
+    let Some(Paper { vertical, horizontal, tuned, tuned_hz, is_asked }) = &job.paper else {
         return vec![None; ladder.len()];
     };
     let benchmark = Benchmark {
@@ -102,22 +105,28 @@ fn paper_errors(job: &Job, ladder: &[f64], told: &(dyn Fn() + Sync)) -> Vec<Opti
         housner: &job.housner,
         effort: &Effort::unbounded(),
     };
-    let from = job.springs.vertical.omega_n_hz;
-    let others = ladder.iter().filter(|hz| **hz != from);
+    let chosen = job.springs.vertical.omega_n_hz;
+    let others = ladder.iter().filter(|hz| **hz != chosen);
     let brackets: Vec<Bracket> =
         others.map(|&max_hz| Bracket { max_hz, max_settlement: f64::INFINITY }).collect();
     let families = [vertical.as_slice(), horizontal.as_slice()];
     let followed =
-        outer::follow(&benchmark, families, &brackets, (tuned, from), &Refinement::DRAWN);
+        outer::follow(&benchmark, families, &brackets, (tuned, *tuned_hz), &Refinement::DRAWN);
     let mut followed = followed.into_iter();
-    let best = |hz: &f64| if *hz == from { Some(tuned.best) } else { followed.next().flatten() };
-    let best: Vec<_> = ladder.iter().map(best).collect();
-    parallel::map(&best, |best| {
-        // the procedure's own history on the record
-        let found = best.and_then(|best| {
-            let of_u = Some(best.of_u).filter(|error| error.is_finite());
-            if job.suites.has_whole_record() { of_u } else { error(job, &best.springs) }
-        });
+    let mut best =
+        |hz: &f64| if *hz == chosen { Some(tuned.best) } else { followed.next().flatten() };
+    let best: Vec<_> = ladder.iter().map(|hz| (*hz == chosen && *is_asked, best(hz))).collect();
+    parallel::map(&best, |(is_answer, best)| {
+        let found = match best {
+            // springs that were followed from there
+            _ if *is_answer => error(job, &job.springs),
+            // the procedure's own history on the record
+            Some(best) if job.suites.has_whole_record() => {
+                Some(best.of_u).filter(|error| error.is_finite())
+            }
+            Some(best) => error(job, &best.springs),
+            None => None,
+        };
         told();
         found
     })

@@ -21,7 +21,7 @@ use super::{
 pub use error::JobError;
 use frequency_response::inner::Fit;
 use landing_design::LandingDesign;
-use procedure::Procedure;
+use procedure::{Procedure, SearchUpTo};
 pub use restitution::{RestitutionChoice, RestitutionErrors};
 
 use cases::{Asked, Case, Objective};
@@ -50,6 +50,11 @@ pub struct Paper {
     pub vertical: Vec<Fit>,
     pub horizontal: Vec<Fit>,
     pub tuned: outer::OmegaSearch,
+    /// Omega_n that `tuned` was found up to (Hz).
+    pub tuned_hz: f64,
+    /// Whether the job's springs are of the procedure: followed from `tuned` to the accuracy asked
+    /// for where no cap is given.
+    pub is_asked: bool,
 }
 
 /// A case's springs and all that led to them.
@@ -143,7 +148,10 @@ impl Job {
             }
         };
         let SearchedSprings { tuned, capped, restitution_choice, paper, program, not_done } = found;
-        let paper = paper.map(|tuned| Paper {
+        let is_asked = case.tuning.objective == Objective::Arr;
+        let paper = paper.map(|(tuned, tuned_hz)| Paper {
+            tuned_hz,
+            is_asked,
             vertical: procedure.vertical,
             horizontal: procedure.horizontal,
             tuned,
@@ -176,7 +184,7 @@ struct SearchedSprings {
     /// Whether a cap on Omega_n decided.
     capped: bool,
     restitution_choice: Option<RestitutionChoice>,
-    paper: Option<outer::OmegaSearch>,
+    paper: Option<SearchUpTo>,
     program: Option<ProgramSprings>,
     not_done: Vec<NotDone>,
 }
@@ -208,6 +216,7 @@ impl SearchedSprings {
             || sampled.and_then(|sampled| procedure.refined_beside(sampled, progress)),
             || early.unwrap_or_else(|| program(for_program)),
         );
+        let paper = paper.map(|found| (found, hz));
         let program = program.filter(|_| !bounces);
         effort.join(&rest);
         if suites.has_whole_record() {

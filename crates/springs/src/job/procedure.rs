@@ -20,6 +20,9 @@ pub(super) struct Procedure<'a> {
     pub horizontal: Vec<Fit>,
 }
 
+/// What a search found, and the Omega_n (Hz) that it went up to.
+pub(crate) type SearchUpTo = (outer::OmegaSearch, f64);
+
 impl<'a> Procedure<'a> {
     pub(crate) fn new(case: &'a Case, benchmark: &'a Benchmark<'a>) -> Result<Self, JobError> {
         let fits = |mus: &[f64]| -> Result<Vec<Fit>, FitError> {
@@ -82,7 +85,7 @@ impl<'a> Procedure<'a> {
         &self,
         suites: &Suites,
         progress: SearchProgress,
-    ) -> Result<(Tuned, bool, Option<outer::OmegaSearch>), JobError> {
+    ) -> Result<(Tuned, bool, Option<SearchUpTo>), JobError> {
         let (tuning, body, effort) =
             (&self.case.tuning, &self.benchmark.body, self.benchmark.effort);
         let asked = tuning.asked();
@@ -100,7 +103,7 @@ impl<'a> Procedure<'a> {
             return Ok((
                 evaluate(suites, body, asked, found.best.springs, effort),
                 true,
-                Some(found),
+                Some((found, max_hz)),
             ));
         }
         let p = body.p();
@@ -124,6 +127,6 @@ impl<'a> Procedure<'a> {
             &springs,
             &said,
         );
-        Ok((tuned.ok_or(JobError::NoCandidate)?, false, Some(found)))
+        Ok((tuned.ok_or(JobError::NoCandidate)?, false, Some((found, begin))))
     }
 }
