@@ -2,7 +2,7 @@
 
 use super::{FiledParameters, Run, Table};
 use files::message::{percent, quantity, significant};
-use results::{PeakTimes, Peaks};
+use results::{PeakPair, PeakTimes, Peaks};
 
 /// A row's name, its quantity, its words, and when it is largest (s).
 type PeakRow =
@@ -19,8 +19,13 @@ pub(crate) const LARGEST: &str = "largest by";
 pub(crate) const PART: &str = "  of it";
 /// The top's displacement over its height.
 pub(crate) const DRIFT_RATIO: &str = "  drift ratio";
+/// The same where springs move the top by more than its rotation does.
+const OF_ROCKING: &str = "  drift ratio (rocking)";
 /// The same of an elastic structure, whose drift is by bending alone.
 const OF_BOTH: &str = "  drift ratio (rocking + bending)";
+/// Share of the top's displacement by which its part by rotation differs, from which it is said
+/// that the drift ratio is of that alone.
+const DIFFERS: f64 = 1e-4;
 /// Share of the top's displacement below which it is not said.
 const NOT_SAID: f64 = 0.005;
 
@@ -69,6 +74,17 @@ fn meters(x: f64) -> String {
 
 fn percents(x: f64) -> String {
     format!("{} %", significant(1e2 * exact(x), 3))
+}
+
+/// The name of a row, that of the drift ratio saying what it is of, where springs move the top of a
+/// rigid body by other than its rotation.
+fn drift_named(name: &'static str, pair: &PeakPair) -> &'static str {
+    let sways = |peaks: &Peaks| {
+        let apart = (peaks.top_displacement_m - peaks.rocking_m).abs();
+        peaks.bending_m.is_none() && apart > DIFFERS * peaks.top_displacement_m
+    };
+    let any = [Some(&pair.springs), pair.with_members.as_ref()].into_iter().flatten().any(sways);
+    if name == DRIFT_RATIO && any { OF_ROCKING } else { name }
 }
 
 /// The table; none of springs without a record.
@@ -135,7 +151,7 @@ pub fn peak_table(run: &Run) -> Option<Table> {
             format!("{}{}", words(value), if late(when, peaks, until) { "*" } else { "" })
         };
         let mut row = vec![
-            format!("{name}{counted}"),
+            format!("{}{counted}", drift_named(name, pair)),
             cell(a, &pair.reference, without),
             cell(b, &pair.springs, without),
             difference,
@@ -167,10 +183,12 @@ const SUMMARY: [SummaryRow; 7] = [
     ("impacts", |p| Some(p.impacts as f64), "1", to_the_end),
 ];
 
-/// `summary.csv`: largest displacements and design forces as plain numbers, SI units; cells of what
-/// is withheld are empty. `with_members`: of a rigid body with members, of which its forces are;
-/// `holds_to_s`: up to when a number counts, if that is not all of the record; `time_s`: when it
-/// is, with members, or on springs; `predictable`: whether the motion is, up to then.
+/// `summary.csv`: largest displacements and design forces as plain numbers, SI units. Empty: what
+/// is withheld; on springs, forces that are the reference's.
+///
+/// `with_members`: of a rigid body with members, of which its forces are; `holds_to_s`: up to when
+/// a number counts, if that is not all of the record; `time_s`: when it is, with members, or on
+/// springs; `predictable`: whether the motion is, up to then.
 pub fn summary(run: &Run) -> Table {
     let head =
         ["quantity", "unit", "reference", "on_springs", "with_members", "holds_to_s", "time_s"];
@@ -205,8 +223,10 @@ pub fn summary(run: &Run) -> Table {
         let reference =
             force.rigid.filter(|_| !matches!(run.parameters, FiledParameters::Elastic(_)));
         let time = Some(force.time_s).filter(|_| force.holds);
+        // the springs of a rigid body check its forces; these are Housner's
+        let on_springs = force.value.filter(|_| force.value != reference);
         let [springs, with] =
-            if run.has_members() { [None, force.value] } else { [force.value, None] };
+            if run.has_members() { [None, force.value] } else { [on_springs, None] };
         let numbers = [reference, springs, with, force.over_s, time];
         row(words(name), name.unit(), numbers, force.predictable.filter(|_| force.holds));
     }
