@@ -16,6 +16,9 @@ pub(crate) const THIS_RECORD: &str = "this record";
 /// What the synthetic motions are called on a row below that of their median.
 const NINE_OF_TEN: &str = "90 % of these";
 
+/// Error of peaks, and NRMSE of histories, beyond which springs are of no use.
+const NO_USE: f64 = 1.0;
+
 /// Why springs are not judged on the record of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Unjudged {
@@ -243,6 +246,20 @@ impl AccuracyReport {
         Some(format!("{on}: {found}"))
     }
 
+    /// Why springs that missed what was asked are of no use: an error beyond 100 %, on the record,
+    /// in the median or in the mean of earthquakes.
+    pub(crate) fn no_use(&self) -> Option<String> {
+        let useless = |x: Option<f64>| x.is_some_and(|x| x > NO_USE || x.is_nan());
+        let typical = |row: &&AccuracyOn| row.on != NINE_OF_TEN;
+        let bad = |row: &&AccuracyOn| useless(row.peaks) || useless(row.history);
+        let row = self.measured().filter(typical).find(bad).filter(|_| !self.reached)?;
+        let found = match row.peaks.filter(|_| useless(row.peaks)) {
+            Some(peaks) => format!("peaks err by {}", percent(peaks)),
+            None => format!("NRMSE {}", significant(row.history?, 2)),
+        };
+        Some(format!("NOT to be used: {}: {found}", row.on))
+    }
+
     /// Sets that something was measured on, the record among them.
     pub(crate) fn sets(&self) -> usize {
         self.measured().count()
@@ -340,9 +357,17 @@ mod tests {
             ["24 synthetic motions (median): NRMSE 0.019", "NOT reached: NRMSE 0.002"]
         );
         assert_eq!(report.short(2, None).len(), short.len());
+        assert_eq!(report.no_use(), None);
+        report.measured[0].peaks = Some(8.53);
+        let told = "NOT to be used: this record: peaks err by 853 %";
+        assert_eq!(report.no_use().as_deref(), Some(told));
+        (report.measured[0].peaks, report.measured[0].history) = (Some(0.2), Some(1.4));
+        assert_eq!(report.no_use().as_deref(), Some("NOT to be used: this record: NRMSE 1.4"));
+        report.measured[0].history = Some(2.2e-5);
         report.measured[1].on = NINE_OF_TEN.into();
         assert_eq!(report.short(1, None)[1], "90 % of 24 synthetic motions: NRMSE 0.019");
         report.measured.clear();
         assert!(report.sentence().starts_with("not measured"));
+        assert_eq!(report.no_use(), None);
     }
 }

@@ -213,8 +213,12 @@ fn programs(run: &Run) -> (&'static str, &'static str, String) {
                 )
             }
         };
+        let no_use = run.accuracy.as_ref().and_then(|accuracy| accuracy.no_use());
+        let no_use =
+            no_use.map_or(String::new(), |why| format!("<p>OpenSees: {}.</p>\n", escape(&why)));
         format!(
-            "<p>The deck builds the model, applies gravity, runs the record in steps that follow \
+            "{no_use}<p>The deck builds the \
+                model, applies gravity, runs the record in steps that follow \
                 every touch and lift, and prints its peaks beside those of this report.</p>\n\
                 <pre>pip install openseespy\npython3 decks/model_openseespy.py\ntune verify \
                 --parameters parameters.json     # OpenSees, this history and the reference in one \

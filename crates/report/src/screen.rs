@@ -304,11 +304,15 @@ fn springs(run: &Run, lines: &mut Vec<String>) {
 
 fn next(run: &Run, written: &Written, crowding: Crowding, lines: &mut Vec<String>) {
     let both = crowding.both_commands;
+    let no_use = run.accuracy.as_ref().and_then(|accuracy| accuracy.no_use());
     if written.decks {
         let run = format!("python3 {}", written.file("decks/model_openseespy.py"));
         let check = format!("tune verify --parameters {}", written.file("parameters.json"));
+        if let Some(why) = &no_use {
+            let deck = written.file("decks/model_openseespy.py");
+            lines.extend(wrapped("OpenSees  ", &format!("{why}; the deck: {deck}")));
         // on one line, if both fit
-        if run.chars().count() + check.chars().count() + 2 < WIDTH - 10 {
+        } else if run.chars().count() + check.chars().count() + 2 < WIDTH - 10 {
             lines.extend(wrapped("OpenSees  ", &format!("{run}; {check}")));
         } else {
             if both {
