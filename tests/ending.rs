@@ -234,3 +234,20 @@ fn housner_s_solution_without_a_case_is_that_of_the_default_case() {
     assert_eq!(peaks("housner --out a.csv"), peaks("housner case.toml --out b.csv"));
     assert_eq!(folder.bytes("a.csv"), folder.bytes("b.csv"));
 }
+
+/// Springs so soft that no foot lifts before it overturns: it sways, and that is said, with what
+/// it sinks, and that its springs are not to be used.
+#[test]
+fn a_structure_that_sways_on_soft_springs_is_not_said_to_rock() {
+    let case = "[structure]\nkind = 'aframe'\nheight_m = 12.0\nwidth_m = 2.4\nmass_kg = 350e3\n\
+        [tuning]\nmax_settlement_m = 1.0\n[record]\nduration_s = 10.0\n";
+    let folder = folder_with(case);
+    let run = "run case.toml --max-hz 1 --quiet --no-figures --no-front";
+    let screen = folder.runs(run).stdout.replace('\n', " ");
+    for told in ["its springs sways and never lifts", "NOT to be used: this record", "(rocking)"] {
+        assert!(screen.contains(told), "{told}: {screen}");
+    }
+    let parameters = parameters(&folder);
+    let sinks = finding(&parameters, "sinks_on_springs").unwrap();
+    assert!(sinks["lifts_at_share"].as_f64().unwrap() > 1.0, "{sinks}");
+}

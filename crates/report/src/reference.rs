@@ -254,7 +254,7 @@ pub(crate) fn verdict(
     if !verdict.agrees() {
         all.push(Finding::ModelsDisagree {
             reference: does(housner),
-            springs: does(finite_elements),
+            springs: does_on_springs(finite_elements),
         });
     }
     all
@@ -350,6 +350,14 @@ fn did(answer: &Answer) -> String {
         _ => String::new(),
     };
     does(answer) + &far
+}
+
+/// What the body does on springs, on which it sways where it does not lift.
+fn does_on_springs(answer: &Answer) -> String {
+    match answer.fate {
+        Fate::NeverLifted => "sways and never lifts (uplift in the table: rotation x width)".into(),
+        _ => does(answer),
+    }
 }
 
 fn does(answer: &Answer) -> String {

@@ -5,6 +5,7 @@ mod limits;
 mod peaks;
 pub mod program;
 mod sections;
+mod sink;
 pub mod tables;
 mod taken;
 mod walk;
@@ -194,6 +195,7 @@ impl RigidRun {
         all.extend(parameters.design_forces.iter().flat_map(|forces| forces.withheld()));
         all.extend(parameters.design_forces.iter().filter_map(|forces| forces.at_rest()));
         all.extend(self.report.findings_beside(&self.both));
+        all.extend(sink::finding(&self.job.body, self.both.matched.settlement_m));
         all.extend(walk::finding(&self.job.body, self.job.record.dt, &self.both));
         all.extend(reference::histories(&self.both));
         all.extend(self.of_deck.clone());

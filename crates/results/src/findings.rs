@@ -11,6 +11,7 @@ mod filed;
 mod message;
 mod not_done;
 mod of_steps;
+mod peak_change;
 mod predictable;
 mod weight;
 
@@ -20,6 +21,7 @@ pub use frames::design_forces::ForceName;
 pub use message::{HARDLY_ROCKS, feet_end};
 pub use not_done::NotDone;
 pub use of_steps::{NotToBeUsed, ProgramAdvice, ProgramFault};
+pub use peak_change::PeakChange;
 pub use weight::Weight;
 
 /// Which of the two models.
@@ -309,6 +311,13 @@ pub enum Finding {
         time_s: f64,
         press_over_weight: f64,
     },
+    /// How far the body at rest presses its springs down (m), over the distance between its feet,
+    /// and the tilt over alpha that lifts a foot off such springs.
+    SinksOnSprings {
+        settlement_m: f64,
+        share_of_width: f64,
+        lifts_at_share: f64,
+    },
     /// How far feet on springs walk that Housner's body does not move (m).
     WalksOnSprings {
         largest_m: f64,
@@ -380,19 +389,6 @@ pub enum Finding {
         record_s: f64,
         end: DeckEnd,
     },
-}
-
-/// A quantity without and with something that was left out.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PeakChange {
-    /// What it is, in words.
-    pub quantity: String,
-    /// Unit.
-    pub unit: String,
-    /// As printed.
-    pub without: f64,
-    /// With what was left out.
-    pub with: f64,
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@ fn urgency(finding: &Finding) -> usize {
     match finding {
         // whether it stands, and where
         Finding::Sliding { .. } | Finding::SpringsForRestitution { .. } => 0,
+        Finding::SinksOnSprings { .. } => 0,
         Finding::FeetMoved { .. } | Finding::WalksOnSprings { .. } => 1,
         Finding::SearchCut { .. } | Finding::IllConditioned { .. } => 1,
         Finding::VerticalLeftOut { .. } => 2,

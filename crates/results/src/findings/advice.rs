@@ -74,6 +74,9 @@ impl Finding {
             Self::HistoryEndsEarly { .. } => {
                 "take stiffer springs, or rotational_inertia_kgm2 above 0.002 m R^2"
             }
+            Self::SinksOnSprings { .. } => {
+                "take stiffer springs: raise or drop --max-hz, or drop a restitution that is given"
+            }
             Self::FeetMoved { .. } => "tie the feet, or design for what stays",
             Self::SmallestSteps { .. } => "compare with OpenSees: tune verify",
             Self::VerticalLeftOut { .. } => "take it: --vertical auto",
@@ -223,6 +226,11 @@ impl Finding {
             Self::HardlyPresses { .. } => {
                 "A little more vertical motion, or a faster rotation, and it would fly: then his \
                     equation ends, and springs alone tell what follows."
+            }
+            Self::SinksOnSprings { .. } => {
+                "A body on rigid ground lifts as soon as its weight is overcome. On springs the \
+                    lifting foot must first rise by what its spring is pressed down, and the other \
+                    sink as far."
             }
             Self::WalksOnSprings { .. } => {
                 "Feet that bounce land beside where they stood. Nothing of it is the structure's."

@@ -39,6 +39,14 @@ impl Finding {
                 s(*time_s),
                 percent(*press_over_weight)
             ),
+            Self::SinksOnSprings { settlement_m, share_of_width, lifts_at_share } => format!(
+                "at rest the structure sinks by {} on its springs, {} of the distance between its \
+                    feet: a foot lifts from a tilt of {} of overturning on, and until then it \
+                    sways",
+                quantity(*settlement_m, "m"),
+                percent(*share_of_width),
+                percent(*lifts_at_share)
+            ),
             Self::WalksOnSprings { largest_m, end_m } => format!(
                 "on springs the feet walk by up to {} ({} at the end), which Housner's do not: the \
                     top's displacement has that in it, the drift ratio has not",
