@@ -55,6 +55,11 @@ pub fn threads() -> usize {
     rayon::current_num_threads()
 }
 
+/// Number of threads that work which begins here may be cut up for: one within work on all cores.
+pub fn idle_threads() -> usize {
+    if rayon::current_thread_index().is_some() { 1 } else { threads() }
+}
+
 fn for_each(numbers: Range<usize>, work: &(dyn Fn(usize) + Sync)) {
     numbers.into_par_iter().with_max_len(1).for_each(work);
 }
@@ -80,6 +85,12 @@ mod tests {
     fn two_pieces_of_work_are_done_within_others() {
         let both = map_range(0..50, |i| join(|| i, || map_range(0..i, |k| k).len()));
         assert_eq!(both, (0..50).map(|i| (i, i)).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn work_within_work_is_not_cut_up() {
+        assert_eq!(idle_threads(), threads());
+        assert_eq!(map_range(0..8, |_| idle_threads()), [1; 8]);
     }
 
     #[test]

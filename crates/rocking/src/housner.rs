@@ -43,7 +43,6 @@ use crate::members::Members;
 use crate::motion::{Motion, largest_magnitude, samples_until};
 use crate::scalar::{GRAVITY, Scalar, real};
 use crate::structure::Body;
-use samples::WalkSamples;
 use std::sync::Arc;
 use strong_motion::Record;
 
@@ -193,10 +192,9 @@ pub fn solve_with_derivatives<S: Scalar>(
     options: &RockingOptions<S>,
 ) -> Rocking<S> {
     let set = setting(body, dt, accel, options);
-    let samples = WalkSamples::kept(set.accel.len());
     match options.vertical {
-        None => walk::Walk::<S, false>::new(set, start(options), samples).go_to_end().end(),
-        Some(_) => walk::Walk::<S, true>::new(set, start(options), samples).go_to_end().end(),
+        None => walk::walk::<S, false>(set, start(options)),
+        Some(_) => walk::walk::<S, true>(set, start(options)),
     }
 }
 

@@ -189,11 +189,13 @@ impl<'a> LaneWalks<'a> {
         if V { self.vertical.get(i).copied().unwrap_or(0.0) } else { 0.0 }
     }
 
-    /// The ground at the lanes' next samples; at its last one where a history ends.
+    /// The ground at the lanes' next samples; at rest beyond the record.
     #[inline(always)]
     fn next_ground<const V: bool>(&self) -> [PerLane; 2] {
-        let next = |l: usize| (self.sample[l] + 1).min(self.last[l]);
-        [array::from_fn(|l| self.accel[next(l)]), array::from_fn(|l| self.up::<V>(next(l)))]
+        let at = |samples: &[f64], i: usize| samples.get(i).copied().unwrap_or(0.0);
+        let next = self.sample.map(|i| i + 1);
+        let up = if V { next.map(|i| at(self.vertical, i)) } else { [0.0; WIDTH] };
+        [next.map(|i| at(self.accel, i)), up]
     }
 
     /// The lanes whose histories have a next sample.

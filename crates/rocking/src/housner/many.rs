@@ -9,9 +9,7 @@ use crate::structure::Body;
 
 /// As many at least go in lock-step: fewer are sooner done one by one.
 const FEW: usize = 3;
-/// As many go on one thread, at least and at most: lanes that find no more to do are then few
-/// beside the others.
-const LEAST: usize = 4 * lanes::WIDTH;
+/// As many at most on one thread: lanes that find no more to do are then few beside the others.
 const MANY: usize = 8 * lanes::WIDTH;
 
 /// Rock many bodies on one record, or one body on many scales of it, sixteen at a time in
@@ -149,8 +147,8 @@ fn together<'a, const V: bool, A: WalkAnswer>(
     let mut walks = walks.into_iter();
     let mut chunks = Vec::new();
     for mut left in alike {
-        let shares = left.div_ceil(MANY).max(parallel::threads().min(left / LEAST));
-        let share = left.div_ceil(shares.max(1));
+        let share =
+            left.div_ceil(parallel::idle_threads()).next_multiple_of(lanes::WIDTH).min(MANY);
         while left > 0 {
             let chunk: Vec<_> = walks.by_ref().take(left.min(share)).collect();
             left -= chunk.len();
@@ -168,8 +166,9 @@ fn together<'a, const V: bool, A: WalkAnswer>(
 fn walked<const V: bool>(mut walks: Vec<Walk<'_, f64, V>>) -> Vec<Walk<'_, f64, V>> {
     let alone = |walk: &Walk<f64, V>| walk.set.restraint.is_some();
     if walks.len() < FEW || walks.iter().any(alone) {
-        return walks.into_iter().map(Walk::go_to_end).collect();
+        walks.iter_mut().for_each(Walk::go_to_end);
+    } else {
+        lanes::walk(&mut walks);
     }
-    lanes::walk(&mut walks);
     walks
 }

@@ -48,6 +48,8 @@ impl<S: Scalar> WalkSamples<S> {
         }
     }
 
+    // not in line: it would slow those that keep their samples
+    #[inline(never)]
     fn look(&mut self, theta: f64, rate: f64) {
         self.count += 1;
         self.peak = self.peak.max(theta.abs());
@@ -66,7 +68,11 @@ impl WalkSamples<f64> {
             self.theta.extend(theta);
             self.rate.extend(rate);
         } else {
-            theta.zip(rate).for_each(|(theta, rate)| self.look(theta, rate));
+            for (theta, rate) in theta.zip(rate) {
+                self.count += 1;
+                self.peak = self.peak.max(theta.abs());
+                self.last = (theta, rate);
+            }
         }
     }
 }

@@ -110,6 +110,14 @@ pub(crate) struct Walk<'a, S, const V: bool> {
     pub quiet: f64,
 }
 
+/// Walk from the given lean and rate at t = 0 to the last sample.
+pub(crate) fn walk<S: Scalar, const V: bool>(set: Setting<S>, start: (S, S)) -> Rocking<S> {
+    let samples = WalkSamples::kept(set.accel.len());
+    let mut walk = Walk::<S, V>::new(set, start, samples);
+    walk.go_to_end();
+    walk.end()
+}
+
 impl<'a, S: Scalar, const V: bool> Walk<'a, S, V> {
     /// From the given lean and rate at t = 0.
     pub(crate) fn new(set: Setting<'a, S>, (theta, rate): (S, S), samples: WalkSamples<S>) -> Self {
@@ -132,7 +140,8 @@ impl<'a, S: Scalar, const V: bool> Walk<'a, S, V> {
     }
 
     /// Walk to the last sample.
-    pub(crate) fn go_to_end(mut self) -> Self {
+    #[inline(always)]
+    pub(crate) fn go_to_end(&mut self) {
         let n = self.set.accel.len();
         // a step of the bare body's series does not take it
         let restrained = self.set.restraint.is_some();
@@ -153,7 +162,6 @@ impl<'a, S: Scalar, const V: bool> Walk<'a, S, V> {
             a0 = a1;
             i += 1;
         }
-        self
     }
 
     /// The ground at sample i; at rest beyond the record.
