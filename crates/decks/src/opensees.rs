@@ -6,7 +6,7 @@ use super::{
     language::{Language, PYTHON, TCL, record_note},
     model::{A_PAIR, DeckModel, LEG_STIFFNESS, digits},
 };
-use rocking::{members::Friction, scalar::GRAVITY};
+use rocking::{members::Members, scalar::GRAVITY};
 
 /// The deck for openseespy.
 pub(super) fn python(model: &DeckModel) -> Result<String, ExportError> {
@@ -36,6 +36,7 @@ fn fill(language: &Language, template: &str, model: &DeckModel) -> Result<String
     let body = model.body();
     let (v, h) = (&model.springs.vertical, &model.springs.horizontal);
     let e = &model.expected;
+    let Members { damper, tendon, friction } = model.members;
     let values = [
         ("TITLE", model.title()),
         ("OURS", "`tune simulate`".into()),
@@ -54,13 +55,10 @@ fn fill(language: &Language, template: &str, model: &DeckModel) -> Result<String
         ("C_H", digits(h.c)),
         ("M2_H", digits(h.m2)),
         ("LEG", digits(model.leg)),
-        ("DAMPER_C", digits(model.members.damper.map_or(0.0, |d| d.c))),
-        (
-            "FRICTION",
-            digits(model.members.friction.map_or(HOLDS, |Friction { coefficient }| coefficient)),
-        ),
+        ("DAMPER_C", digits(damper.map_or(0.0, |d| d.c))),
+        ("FRICTION", digits(friction.map_or(HOLDS, |f| f.coefficient))),
         ("DAMPER_ALOFT", digits(model.damper_aloft())),
-        ("TENDON_K", digits(model.members.tendon.map_or(0.0, |t| t.stiffness))),
+        ("TENDON_K", digits(tendon.map_or(0.0, |t| t.stiffness))),
         ("TENDON_SLACK", digits(model.slack())),
         ("LEG_RATIO", LEG_STIFFNESS.to_string()),
         ("TOLERANCE", digits(model.even.map_or(model.tolerance, |even| even.tolerance()))),
