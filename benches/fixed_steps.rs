@@ -5,14 +5,16 @@
 //! cargo bench --bench fixed_steps                 # error over the step, and figures/fixed_steps.png
 //! cargo bench --bench fixed_steps -- search       # a run's beside the best of 500 springs drawn at random
 //! cargo bench --bench fixed_steps -- stance       # error and lost histories over the stance
+//! cargo bench --bench fixed_steps -- numbers      # the same over the units' numbers
 //! cargo bench --bench fixed_steps -- tolerance    # the same over the tolerance of an unbalance
 //! cargo bench --bench fixed_steps -- events       # with and without event-to-event stepping
 //! ```
 //!
 //! Motions are of seed 31; the search chooses on those of seed 77. No spring of the program was
 //! chosen on either. The stances that a run tries (`springs::fixed_steps::STANCES`) were chosen by
-//! what the third command prints, the tolerance of an unbalance (`fixed_steps::program`) by what
-//! the fourth does, on motions of seeds 5 and 6.
+//! what the third command prints, the numbers of the units (`DesignNumbers::EVEN`) by what the
+//! fourth does, the tolerance of an unbalance (`fixed_steps::program`) by what the fifth does, on
+//! motions of seeds 5 and 6.
 
 use std::path::Path;
 
@@ -30,7 +32,7 @@ use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
 use rocking::structure::{Body, Structure};
 use springs::{
-    fixed_steps::{LONGEST, ProgramSprings, design},
+    fixed_steps::{DesignNumbers, LONGEST, ProgramSprings, design},
     suite::{self, Suites},
 };
 
@@ -48,15 +50,18 @@ const STEPS: [f64; 6] = [1e-2, 4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4];
 const SEARCH_STEP: f64 = 1e-3;
 const EVALUATIONS: usize = 500;
 
-/// Stances of the third command, tolerances of the fourth (over W tan(alpha)); the seeds of
-/// their motions, how many motions, and their steps (s).
+/// Stances of the third command, numbers of the fourth, tolerances of the fifth (over
+/// W tan(alpha)); the seeds of their motions, how many motions, and their steps (s).
 const STANCES: [f64; 8] = [4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 12.0];
+const REBOUNDS: [f64; 3] = [0.15, 0.5, 1.5];
+const LARGEST_K: [f64; 3] = [0.25, 0.5, 1.0];
+const MASS_RATIOS: [f64; 3] = [0.25, 0.5, 1.0];
 const TOLERANCES: [f64; 6] = [0.5, 0.7, 1.0, 1.41, 2.0, 3.0];
 const CHOSEN_ON_SEEDS: [u64; 2] = [5, 6];
 const CHOSEN_ON_MOTIONS: usize = 64;
 const CHOSEN_ON_STEPS: [f64; 3] = [1e-2, 1e-3, 2.5e-4];
 
-/// Motions of a row of the fifth command, its steps (s), and its programs: those of CSI test the
+/// Motions of a row of the sixth command, its steps (s), and its programs: those of CSI test the
 /// unbalance, scripts the change of place.
 const EVENT_MOTIONS: usize = 64;
 const EVENT_STEPS: [f64; 2] = [1e-2, 1e-3];
@@ -286,6 +291,26 @@ fn stance() -> Result<(), BenchError> {
     Ok(())
 }
 
+/// Each number of the units beside others, at a stance of 10.
+fn numbers() -> Result<(), BenchError> {
+    println!("numbers: geometric mean, largest median NRMSE over p dt; histories lost");
+    let chosen = DesignNumbers { stance: 10.0, ..DesignNumbers::EVEN };
+    type With = fn(DesignNumbers, f64) -> DesignNumbers;
+    let over: [(&str, [f64; 3], With); 3] = [
+        ("rebound/floor", REBOUNDS, |of, rebound| DesignNumbers { rebound, ..of }),
+        ("largest K", LARGEST_K, |of, largest_k| DesignNumbers { largest_k, ..of }),
+        ("mu/(mu_u M)", MASS_RATIOS, |of, mu| DesignNumbers { mu, ..of }),
+    ];
+    for (what, values, with) in over {
+        for (name, integrator) in &INTEGRATORS[..3] {
+            over_bodies(&format!("{what}, {name}"), *integrator, &values, |value, of, step| {
+                errors(of, step, *integrator, &with(chosen, value).design(&of.body, step))
+            })?;
+        }
+    }
+    Ok(())
+}
+
 fn tolerance() -> Result<(), BenchError> {
     println!("unbalance over W tan(alpha): geometric mean, largest median over p dt; lost");
     let integrator = Integrator::HHT_MOST;
@@ -339,6 +364,7 @@ fn main() -> Result<(), BenchError> {
     match std::env::args().nth(1).as_deref() {
         Some("search") => search(),
         Some("stance") => stance(),
+        Some("numbers") => numbers(),
         Some("tolerance") => tolerance(),
         Some("events") => events(),
         _ => over_steps(),

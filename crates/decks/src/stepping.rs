@@ -18,7 +18,7 @@ use rocking::{
     scalar::GRAVITY,
     structure::Structure,
 };
-use springs::fixed_steps::design;
+use springs::fixed_steps::DesignNumbers;
 use strong_motion::Record;
 
 use crate::{
@@ -229,7 +229,7 @@ impl Stepped {
             return Ok(Self { parameters: program, steps, given });
         }
         let (body, substep) = (program.structure.body(), steps.step / touches as f64);
-        let design = design(&body, substep);
+        let design = DesignNumbers::AT_TOUCHES.design(&body, substep);
         let springs =
             FixedStepSprings::refined(&body, steps.step, steps.integrator, &design, touches)
                 .map_err(|e| ExportError::Steps { message: e.to_string() })?;

@@ -2,7 +2,7 @@
 //! landings of the whole model.
 
 use dynamics::{
-    effort::Effort,
+    effort::{Effort, StopSignal},
     fem::{Analysis, Start},
     spring::{Design, Springs},
 };
@@ -134,7 +134,23 @@ fn bodies_can_be_given_another_restitution() {
         .unwrap();
         let rows = rows(&body, ratio, &springs);
         println!("{} m, {ratio}: {:.2} %", structure.height_m, 100.0 * worst(&rows));
+        let settlement = springs.settlement(body.mass);
+        assert!(settlement < bracket.max_settlement * (1.0 + 2e-3), "{settlement:e}");
         assert!(worst(&rows) < 5e-3, "{structure:?} {ratio}: {rows:?}");
+    }
+}
+
+/// For a restitution far below equation 2's soft springs bounce best: those of more settlement than
+/// allowed are not taken, however short the search.
+#[test]
+fn springs_that_bounce_settle_by_no_more_than_allowed() {
+    let body = with_inertia(Structure::a_frame(12.0, 3.0, 1e4).unwrap());
+    for limit in [1e-2, 1e-4] {
+        let bracket = Bracket { max_hz: 160.0, max_settlement: limit };
+        let effort = Effort::of(2_000_000, StopSignal::default());
+        let found = with_restitution(&body, 0.3, bracket, &effort, &|_, _, _| {});
+        let settlement = found.unwrap().settlement(body.mass);
+        assert!(settlement < limit * (1.0 + 2e-3), "{settlement:e} {limit:e}");
     }
 }
 

@@ -11,7 +11,7 @@ use std::env;
 
 use fixed_steps::{FixedStepDesign, FixedStepSprings, Integrator, measured::WellConditioned};
 use rocking::structure::Structure;
-use springs::fixed_steps::design;
+use springs::fixed_steps::DesignNumbers;
 
 const STEP: f64 = 1e-3;
 
@@ -35,7 +35,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 motions.motions.iter().map(|m| (m.accel.len() - 1) as f64 * m.dt / STEP).sum();
             for (which, given) in [("recipe", Some(FixedStepDesign::RECIPE)), ("own", None)] {
                 for substeps in [10, 20] {
-                    let design = given.unwrap_or_else(|| design(&body, STEP / substeps as f64));
+                    let own = || DesignNumbers::AT_TOUCHES.design(&body, STEP / substeps as f64);
+                    let design = given.unwrap_or_else(own);
                     let springs =
                         FixedStepSprings::refined(&body, STEP, integrator, &design, substeps)?;
                     let settings = springs.settings().with_substeps(1.0 / (8.0 * substeps as f64));

@@ -163,13 +163,23 @@ pub fn with_restitution(
     let objective =
         LandingsAndUplifts::new(body, restitution, (bracket, Criterion::Energy), effort);
     let cost = |z: &[f64]| {
+        // the descent cannot come back from a settlement that is not allowed
+        if let Some((over, _)) = objective.inequality(z).filter(|(over, _)| *over > 0.0) {
+            return UNFINISHED * (1.0 + over);
+        }
         let error = objective.residuals(z).iter().map(|r| r * r).sum::<f64>().sqrt();
         // a run that did not finish is worse than any other
         if error.is_finite() { error } else { UNFINISHED }
     };
     let z = search(&cost, &objective.bounds(), EVALUATIONS, ENOUGH, effort, progress)?;
     let end = descend(&objective, &z, 0.3, STEPS.1);
-    Some(springs(&end.z))
+    let found = springs(&end.z);
+    settles(&found, bracket).then_some(found)
+}
+
+/// Whether springs settle by no more than allowed; the descent sees the limit as a plane.
+fn settles(springs: &Springs<Design<f64>>, bracket: Bracket) -> bool {
+    springs.settlement(1.0) <= bracket.max_settlement * (1.0 + 1e-3)
 }
 
 /// One way down.
@@ -197,9 +207,7 @@ fn path(
         let end = descend(&objective, &logarithms(&found), 0.3, steps);
         (found, error) = (springs(&end.z), end.error);
     }
-    // the descent sees the limit of the settlement as a plane
-    let settles = found.settlement(1.0) <= bracket.max_settlement * (1.0 + 1e-3);
-    (error.is_finite() && settles).then_some(found)
+    (error.is_finite() && settles(&found, bracket)).then_some(found)
 }
 
 #[cfg(test)]

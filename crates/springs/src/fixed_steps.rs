@@ -4,11 +4,11 @@
 //! ```text
 //!   error of a history   floor    13 p dt
 //!                        stance   80 (p/(alpha Omega_e))^2
-//!                        rebound  20 alpha^3 (v_r/v_n)^2,   v_r/v_n about 0.8 K
+//!                        rebound  20 alpha^3 (v_r/v_n)^2,   v_r/v_n about 1.7 K
 //!
-//!   stance  = floor/2, or more  ->  k_e = k1 K/(1 + K) = 12 m p/(alpha^2 dt), or 9, 7, 4 of it
-//!   rebound = floor/2           ->  K = sqrt(13 p dt/(2 20 0.8^2 alpha^3)),  at most 1/4
-//!   units   mu = mu_u(K) M,  C = C_u(K) sqrt(M)  of what lands (`landing::design`)
+//!   stance  = floor/2, or more  ->  k_e = k1 K/(1 + K) = 12 m p/(alpha^2 dt), or 10, 7, 5 of it
+//!   rebound = floor/2           ->  K = sqrt(13 p dt/(2 20 1.7^2 alpha^3)),  at most 1/2
+//!   units   mu = mu_u(K) M/2,  C = C_u(K) sqrt(M)  of what lands (`landing::design`)
 //!           Omega_h/Omega_v at least 4, more under stocky frames
 //! ```
 //!
@@ -19,10 +19,14 @@
 //! are stepped as the program does, on the synthetic motions that a run's other springs are judged
 //! on. Stances are tried from the stiffest on. One will do if nearly all histories come through and
 //! their median error is at most 1.7 times the floor; the first that will do is taken. Where a user
-//! asks for a program, the one of these is taken whose peaks err least on earthquake-like motions,
-//! and a stance of 48 is tried, too, if the integrator ends stiff modes. What is told of the
-//! springs on synthetic motions is then measured on 48 that chose nothing. On earthquake-like
-//! motions they are measured in every run.
+//! asks for a program, all are tried, stiffer ones too if the integrator ends stiff modes; of those
+//! whose medians are alike, the one is taken whose peaks err least on earthquake-like motions. What
+//! is told of the springs on synthetic motions is then measured on 48 that chose nothing. On
+//! earthquake-like motions they are measured in every run.
+//!
+//! An absorber of half the mass that a landing asks for rebounds twice as much, which K makes up
+//! for, and histories err less in steps that do not resolve the landing
+//! (`cargo bench --bench fixed_steps -- numbers`).
 
 pub mod instead;
 
@@ -43,18 +47,16 @@ use fixed_steps::{
 use landing::{corners::CornerDynamics, design::for_landing};
 use rocking::structure::Body;
 
-/// Rebound v_r/v_n over K, of the universal chain.
-const REBOUND_OVER_K: f64 = 0.8;
-/// K at most: the body that lands in long steps.
-const LARGEST_K: f64 = 0.25;
 /// K at least: below it an absorber comes back late.
 const LEAST_K: f64 = 0.02;
 /// k_e alpha^2 dt/(m p): the stances that are tried.
-pub const STANCES: [f64; 4] = [12.0, 9.0, 7.0, 4.0];
-/// The same for earthquake-like motions: twice the first's Omega_n.
-const STIFFEST: f64 = 48.0;
+pub const STANCES: [f64; 4] = [12.0, 10.0, 7.0, 5.0];
+/// Stiffer ones, which sway less before they lift, for integrators that end stiff modes.
+const STIFFER: [f64; 2] = [48.0, 20.0];
 /// Median error that springs may have, over the floor.
 const OVER_FLOOR: f64 = 1.7;
+/// Ratio of median errors up to which springs are alike on some fifty motions.
+const ALIKE: f64 = 1.25;
 /// Where a user asks for a program, so many synthetic motions more choose the springs, and others
 /// tell what they err.
 const ALSO_CHOOSE: usize = 24;
@@ -65,21 +67,54 @@ pub const THROUGH: f64 = 0.95;
 /// The same with an integrator that ends stiff modes.
 const THROUGH_IF_ENDED: f64 = 0.99;
 
-/// The design for a body and a step (s).
-pub fn design(body: &Body<f64>, step: f64) -> FixedStepDesign {
-    let floor = FLOOR * body.p() * step;
-    let k = (floor / (2.0 * REBOUND * body.alpha().powi(3))).sqrt() / REBOUND_OVER_K;
-    let corners = CornerDynamics::rigid(body.alpha(), body.mass_share());
-    let effective = 1.0 - body.mass_share() * body.alpha().sin().powi(2);
-    let Springs { vertical, horizontal } =
-        for_landing(&corners, effective, k.clamp(LEAST_K, LARGEST_K));
-    let numbers = |unit: &Design<f64>| UnitNumbers { k: unit.k(), c: unit.c(), mu: unit.mu };
-    FixedStepDesign {
-        stance: STANCES[0],
-        vertical: numbers(&vertical),
-        horizontal: numbers(&horizontal),
-        horizontal_over_vertical: horizontal.omega_n_hz / vertical.omega_n_hz,
+/// What units for a step follow from, whatever the body. Those of a run for steps of one size are
+/// [`Self::EVEN`], those for substeps that resolve a landing [`Self::AT_TOUCHES`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DesignNumbers {
+    /// k_e alpha^2 dt/(m p): how stiff the stance is.
+    pub stance: f64,
+    /// Error by the rebound, of the floor.
+    pub rebound: f64,
+    /// Rebound v_r/v_n over K, of these units.
+    pub rebound_over_k: f64,
+    /// K at most: bodies that land in long steps.
+    pub largest_k: f64,
+    /// mu over the mu_u(K) M of the body's own landing, in steps that do not resolve it.
+    pub mu: f64,
+}
+
+impl DesignNumbers {
+    /// `cargo bench --bench fixed_steps -- numbers` has them beside others.
+    pub const EVEN: Self =
+        Self { stance: STANCES[0], rebound: 0.5, rebound_over_k: 1.7, largest_k: 0.5, mu: 0.5 };
+    /// The body's own landing. The stance is that of the substep
+    /// ([`FixedStepSprings::refined`]), not this one.
+    pub const AT_TOUCHES: Self =
+        Self { rebound_over_k: 0.8, largest_k: 0.25, mu: 1.0, ..Self::EVEN };
+
+    /// The design for a body and a step (s).
+    pub fn design(&self, body: &Body<f64>, step: f64) -> FixedStepDesign {
+        let rebound = self.rebound * FLOOR * body.p() * step;
+        let k = (rebound / (REBOUND * body.alpha().powi(3))).sqrt() / self.rebound_over_k;
+        let corners = CornerDynamics::rigid(body.alpha(), body.mass_share());
+        let effective = 1.0 - body.mass_share() * body.alpha().sin().powi(2);
+        let Springs { vertical, horizontal } =
+            for_landing(&corners, effective, k.clamp(LEAST_K, self.largest_k));
+        let numbers = |unit: &Design<f64>| UnitNumbers { k: unit.k(), c: unit.c(), mu: unit.mu };
+        // in the shortest steps nothing but the landing's own mass rebounds little enough
+        let of_mass = if k < LEAST_K { 1.0 } else { self.mu };
+        FixedStepDesign {
+            stance: self.stance,
+            vertical: UnitNumbers { mu: of_mass * vertical.mu, ..numbers(&vertical) },
+            horizontal: numbers(&horizontal),
+            horizontal_over_vertical: horizontal.omega_n_hz / vertical.omega_n_hz,
+        }
     }
+}
+
+/// The design of a run for a body and steps of one size (s).
+pub fn design(body: &Body<f64>, step: f64) -> FixedStepDesign {
+    DesignNumbers::EVEN.design(body, step)
 }
 
 /// Springs for a body in a program, and what they err.
@@ -203,26 +238,22 @@ impl ProgramSprings {
             return Ok(first);
         }
         let motions = ProgramSuites::of(&first.springs.body, suites, asked, effort);
-        let stiffest = (asked && program.integrator.ends_stiff_modes()).then_some(STIFFEST);
-        let mut best: Option<Self> = None;
-        for stance in stiffest.into_iter().chain(STANCES) {
+        let ends_modes = asked && program.integrator.ends_stiff_modes();
+        let stiffer = if ends_modes { &STIFFER[..] } else { &[] };
+        let mut tried = Vec::new();
+        for &stance in stiffer.iter().chain(&STANCES) {
             if effort.stopped() {
                 break;
             }
-            let mut tried = Self { stiffer: stance == STIFFEST, ..of(stance)? };
-            tried.synthetic = tried.errors(&motions.synthetic);
-            let will_do = tried.will_do();
-            if will_do {
-                tried.earthquakes = tried.errors(&motions.earthquakes);
-            }
-            if best.as_ref().is_none_or(|best| tried.rank() < best.rank()) {
-                best = Some(tried);
-            }
-            if will_do && !asked {
+            let mut springs = Self { stiffer: STIFFER.contains(&stance), ..of(stance)? };
+            springs.synthetic = springs.errors(&motions.synthetic);
+            let enough = !asked && springs.will_do();
+            tried.push(springs);
+            if enough {
                 break;
             }
         }
-        let mut found = best.unwrap_or(first);
+        let mut found = Self::best(tried, &motions.earthquakes, effort).unwrap_or(first);
         if effort.stopped() {
             return Ok(found);
         }
@@ -280,16 +311,40 @@ impl ProgramSprings {
         errors.quantile(0.5) / (OVER_FLOOR * self.expected.floor)
     }
 
-    /// By which springs are compared, the least first: those that will do by their peaks on
-    /// earthquake-like motions; then others by how far they are from it.
-    fn rank(&self) -> (usize, f64) {
-        match (&self.synthetic, &self.earthquakes) {
-            (Some(errors), _) if !self.will_do() => {
-                (1, (share_lost(errors) / (1.0 - THROUGH)).max(self.over_limit(errors)))
+    /// Of those that will do, and are alike on synthetic motions, the springs whose peaks err least
+    /// on earthquake-like ones; the nearest where none will do.
+    fn best(tried: Vec<Self>, earthquakes: &[ReferenceHistory], effort: &Effort) -> Option<Self> {
+        let least = |of: &[Self], rank: fn(&Self) -> f64| {
+            of.iter().min_by(|a, b| rank(a).total_cmp(&rank(b))).cloned()
+        };
+        let (mut alike, others): (Vec<_>, Vec<_>) = tried.into_iter().partition(Self::will_do);
+        let Some(closest) = least(&alike, Self::median) else {
+            return least(&others, Self::distance);
+        };
+        alike.retain(|springs| springs.median() <= ALIKE * closest.median());
+        for springs in &mut alike {
+            if effort.stopped() {
+                return Some(closest);
             }
-            (_, Some(errors)) => (0, errors.peak_quantile(0.5)),
-            _ => (0, 0.0),
+            springs.earthquakes = springs.errors(earthquakes);
         }
+        let peaks = |springs: &Self| {
+            springs.earthquakes.as_ref().map_or(0.0, |errors| errors.peak_quantile(0.5))
+        };
+        least(&alike, peaks)
+    }
+
+    /// What histories of synthetic motions err, in the median.
+    fn median(&self) -> f64 {
+        self.synthetic.as_ref().map_or(0.0, |errors| errors.quantile(0.5))
+    }
+
+    /// How far springs are from what will do: the larger of histories lost and of the median, each
+    /// over its limit.
+    fn distance(&self) -> f64 {
+        self.synthetic.as_ref().map_or(0.0, |errors| {
+            (share_lost(errors) / (1.0 - THROUGH)).max(self.over_limit(errors))
+        })
     }
 
     /// How the program steps on them.
@@ -318,20 +373,24 @@ mod tests {
     use fixed_steps::{Integrator, ProgramName};
     use rocking::structure::Structure;
 
-    /// The rebound that K leaves is half of the floor, or K is 1/4.
+    /// The rebound that K leaves is its share of the floor, or K is the largest; mu is its share of
+    /// that of the body's own landing.
     #[test]
-    fn k_follows_from_the_step() {
+    fn numbers_follow_from_the_step() {
+        let DesignNumbers { rebound: share, rebound_over_k, largest_k, mu, stance } =
+            DesignNumbers::EVEN;
         let body = Structure::block(2.0, 1.0, 1e3).unwrap().body::<f64>();
         for step in [2.5e-4, 1e-3] {
             let k = design(&body, step).vertical.k;
-            let rebound = REBOUND * body.alpha().powi(3) * (REBOUND_OVER_K * k).powi(2);
-            assert_relative_eq!(rebound, 0.5 * FLOOR * body.p() * step, max_relative = 1e-9);
+            let rebound = REBOUND * body.alpha().powi(3) * (rebound_over_k * k).powi(2);
+            assert_relative_eq!(rebound, share * FLOOR * body.p() * step, max_relative = 1e-9);
         }
-        assert_relative_eq!(
-            design(&Structure::paper().body(), 1e-3).vertical.k,
-            LARGEST_K,
-            max_relative = 1e-12
-        );
+        let paper = Structure::paper().body::<f64>();
+        let own = design(&paper, 1e-2);
+        assert_relative_eq!(own.vertical.k, largest_k, max_relative = 1e-12);
+        let whole = DesignNumbers { mu: 1.0, ..DesignNumbers::EVEN }.design(&paper, 1e-2);
+        assert_relative_eq!(own.vertical.mu, mu * whole.vertical.mu, max_relative = 1e-12);
+        assert_eq!((own.horizontal, own.stance), (whole.horizontal, stance));
     }
 
     /// The emulated rebound of the units in short steps is what the closed form counts on, within a
@@ -339,8 +398,11 @@ mod tests {
     #[test]
     fn units_rebound_as_counted_on() {
         let body = Structure::block(2.0, 1.0, 1e3).unwrap().body::<f64>();
-        for step in [2.5e-5, 1e-4] {
-            let design = design(&body, step);
+        for (numbers, step) in [DesignNumbers::EVEN, DesignNumbers::AT_TOUCHES]
+            .into_iter()
+            .flat_map(|numbers| [2.5e-5, 1e-4, 1e-3].map(|step| (numbers, step)))
+        {
+            let design = numbers.design(&body, step);
             let springs =
                 FixedStepSprings::designed(&body, step, Integrator::Trbdf2, &design).unwrap();
             let found = fixed_steps::rebound::rebound(
@@ -349,7 +411,7 @@ mod tests {
                 1e-7,
                 &Integrator::Trbdf2,
             );
-            let counted = REBOUND_OVER_K * design.vertical.k;
+            let counted = numbers.rebound_over_k * design.vertical.k;
             assert!((found / counted - 1.0).abs() < 0.5, "{found} {counted}");
         }
     }

@@ -3,7 +3,7 @@
 
 use fixed_steps::{FixedStepDesign, FixedStepSprings, Integrator, measured::WellConditioned};
 use rocking::{statistics::quantile, structure::Structure};
-use springs::fixed_steps::design;
+use springs::fixed_steps::{DesignNumbers, design};
 
 /// Median over p dt, at most.
 const MOST: f64 = 22.0;
@@ -73,7 +73,8 @@ fn stocky_bodies_in_short_steps_need_units_of_their_own() {
 fn refining_steps_at_touches_breaks_the_floor() {
     for (structure, substeps) in structures().into_iter().zip([10, 20]) {
         for integrator in [Integrator::Trbdf2, Integrator::BackwardEuler] {
-            let design = design(&structure.body(), 1e-3 / substeps as f64);
+            let substep = 1e-3 / substeps as f64;
+            let design = DesignNumbers::AT_TOUCHES.design(&structure.body(), substep);
             let springs =
                 FixedStepSprings::refined(&structure.body(), 1e-3, integrator, &design, substeps)
                     .unwrap();
