@@ -53,7 +53,7 @@ const EVALUATIONS: usize = 500;
 /// Stances of the third command, numbers of the fourth, tolerances of the fifth (over
 /// W tan(alpha)); the seeds of their motions, how many motions, and their steps (s).
 const STANCES: [f64; 8] = [4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 12.0];
-const REBOUNDS: [f64; 3] = [0.15, 0.5, 1.5];
+const REBOUNDS: [f64; 3] = [0.5, 0.75, 1.5];
 const LARGEST_K: [f64; 3] = [0.25, 0.5, 1.0];
 const MASS_RATIOS: [f64; 3] = [0.25, 0.5, 1.0];
 const TOLERANCES: [f64; 6] = [0.5, 0.7, 1.0, 1.41, 2.0, 3.0];

@@ -7,7 +7,7 @@
 //!                        rebound  20 alpha^3 (v_r/v_n)^2,   v_r/v_n about 1.7 K
 //!
 //!   stance  = floor/2, or more  ->  k_e = k1 K/(1 + K) = 12 m p/(alpha^2 dt), or 10, 7, 5 of it
-//!   rebound = floor/2           ->  K = sqrt(13 p dt/(2 20 1.7^2 alpha^3)),  at most 1/2
+//!   rebound = 3/4 floor         ->  K = sqrt(3 13 p dt/(4 20 1.7^2 alpha^3)),  at most 1/2
 //!   units   mu = mu_u(K) M/2,  C = C_u(K) sqrt(M)  of what lands (`landing::design`)
 //!           Omega_h/Omega_v at least 4, more under stocky frames
 //! ```
@@ -86,11 +86,11 @@ pub struct DesignNumbers {
 impl DesignNumbers {
     /// `cargo bench --bench fixed_steps -- numbers` has them beside others.
     pub const EVEN: Self =
-        Self { stance: STANCES[0], rebound: 0.5, rebound_over_k: 1.7, largest_k: 0.5, mu: 0.5 };
+        Self { stance: STANCES[0], rebound: 0.75, rebound_over_k: 1.7, largest_k: 0.5, mu: 0.5 };
     /// The body's own landing. The stance is that of the substep
     /// ([`FixedStepSprings::refined`]), not this one.
     pub const AT_TOUCHES: Self =
-        Self { rebound_over_k: 0.8, largest_k: 0.25, mu: 1.0, ..Self::EVEN };
+        Self { rebound: 0.5, rebound_over_k: 0.8, largest_k: 0.25, mu: 1.0, ..Self::EVEN };
 
     /// The design for a body and a step (s).
     pub fn design(&self, body: &Body<f64>, step: f64) -> FixedStepDesign {
