@@ -149,9 +149,9 @@ impl ProgramReport {
             asked: row.asked,
             elastic: told.elastic,
             stiffer: row.stiffer_for_earthquakes.then_some(
-                "Omega_n is twice that of the closed form: earthquake-like motions sway the \
-                    structure before it lifts, and their peaks err less on such springs; this \
-                    integrator ends the motions that they ring in.",
+                "The springs are stiffer than the closed form has them: earthquake-like motions \
+                    sway the structure before it lifts, and their peaks err less on such springs; \
+                    this integrator ends the motions that they ring in.",
             ),
         }
     }
