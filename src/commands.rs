@@ -77,6 +77,19 @@ enum Command {
     Completions(completions::CompletionsOptions),
 }
 
+impl Command {
+    /// The threads asked for, of the commands that take `--jobs`.
+    fn jobs(&self) -> Option<usize> {
+        match self {
+            Self::Run(o) => o.jobs,
+            Self::Chart(o) => o.jobs,
+            Self::Validate(o) => o.jobs,
+            Self::Sweep(o) => o.jobs(),
+            _ => None,
+        }
+    }
+}
+
 /// Why a command ended without its result.
 #[derive(Debug, Error)]
 pub enum CommandError {
@@ -152,6 +165,10 @@ pub fn main() -> ExitCode {
             return ExitCode::from(2);
         }
     };
+    // before any command computes: reading files may be parallel work already
+    if let Err(e) = common::threads(cli.command.jobs()) {
+        return code(Err(e));
+    }
     let result = match cli.command {
         Command::Run(o) => run::run(&o),
         Command::Housner(o) => housner::run(&o),

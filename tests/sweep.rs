@@ -279,6 +279,32 @@ fn the_scale_of_motions_like_a_given_one_is_that_of_these() {
     assert!((105.0..300.0).contains(&scale), "{said}");
 }
 
+/// Motions like a given one are made on all threads while the sweep is read: `--jobs` must count
+/// before that, alone and in the commands that `tune sweep plan` writes.
+#[test]
+fn motions_like_a_given_one_are_the_same_on_any_number_of_threads() {
+    let spec = SWEEP.split("[[structure]]").nth(1).unwrap();
+    let spec = format!(
+        "[sweep]\nkind = \"fragility\"\npart = 20\n[[structure]]{spec}[records]\nlike = {:?}\n\
+         like_count = 20\n[levels]\npga_g = [0.3, 0.6, 1.0]\n",
+        program::WAIPAWA
+    );
+    let dir = TestFolder::with(&[("sweep.toml", &spec)]);
+    sweep(&dir, "whole", "--no-figures");
+    assert_eq!(files(&dir.path("whole/parts")).len(), 3);
+    sweep(&dir, "one", "--no-figures --jobs 1");
+    sweep(&dir, "two", "--no-figures --jobs 2");
+    for share in ["1/2 --jobs 1", "2/2 --jobs 2"] {
+        sweep(&dir, "shares", &format!("--shard {share}"));
+    }
+    dir.runs("sweep gather sweep.toml --out shares --no-figures");
+    for out in ["one", "two", "shares"] {
+        same(&dir, "whole", out);
+    }
+    let said = dir.refuses("sweep sweep.toml --out none --jobs 2000");
+    assert!(said.contains("--jobs is 2000; give at most 1024 threads"), "{said}");
+}
+
 #[test]
 fn a_summary_of_some_parts_tells_of_how_many_histories() {
     let dir = begun();

@@ -7,7 +7,7 @@ use std::{
 
 use clap::Args;
 
-use super::{CommandError, run::threads, terminal};
+use super::{CommandError, terminal};
 use dynamics::spring::{Design, Springs};
 use landing::design::Geometry;
 use run_folder::{folder::Folder, folder::identity, place::check_folder, place::write_file};
@@ -24,7 +24,7 @@ pub struct ChartOptions {
     out: PathBuf,
     /// Threads [default: all cores]
     #[arg(long, value_name = "N")]
-    jobs: Option<usize>,
+    pub(super) jobs: Option<usize>,
 }
 
 /// m R^2/I0 of an A-frame with all mass at its apex and of a solid block.
@@ -41,7 +41,6 @@ struct ChartRow {
 
 pub fn run(o: &ChartOptions) -> Result<(), CommandError> {
     check_folder(&o.out)?;
-    threads(o.jobs)?;
     let mut all = Vec::new();
     for (kind, (_, share)) in KINDS.into_iter().enumerate() {
         for &alpha in &o.alpha {

@@ -227,6 +227,28 @@ impl GroundOptions {
     }
 }
 
+/// Threads beyond which a machine only starves.
+const MOST_THREADS: usize = 1024;
+
+/// Use this many threads; none: all cores. It must be told before anything is computed: the first
+/// parallel work of a process starts its threads for good.
+pub fn threads(jobs: Option<usize>) -> Result<(), CommandError> {
+    let Some(n) = jobs else { return Ok(()) };
+    if n == 0 {
+        let remedy = "give at least one thread, or leave it out for one a core";
+        return Err(CommandError::option("jobs", n, remedy));
+    }
+    if n > MOST_THREADS {
+        return Err(CommandError::option("jobs", n, "give at most 1024 threads"));
+    }
+    let remedy = match n {
+        1 => "this machine starts no thread more: end other programs",
+        _ => "this machine does not start so many threads: give fewer",
+    };
+    let built = rayon::ThreadPoolBuilder::new().num_threads(n).build_global();
+    built.map_err(|_| CommandError::option("jobs", n, remedy))
+}
+
 /// Whether a history can be this long (s).
 pub fn duration(given: Option<f64>) -> Result<(), CommandError> {
     match given {

@@ -70,7 +70,7 @@ pub struct RunOptions {
     out: PathBuf,
     /// Threads [default: all cores]
     #[arg(long, value_name = "N")]
-    jobs: Option<usize>,
+    pub(super) jobs: Option<usize>,
     #[command(flatten)]
     effort: EffortOptions,
     /// No figures
@@ -126,7 +126,6 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     }
     let friction = o.ground.friction()?;
     check_folder(&o.out)?;
-    threads(o.jobs)?;
 
     if !o.no_record {
         progress::taken(&case.excitation.line(), &case.doubts(), o.quiet);
@@ -243,25 +242,4 @@ impl RunOptions {
         };
         terminal::stdout(format_args!("{screen}{more}"))
     }
-}
-
-/// Threads beyond which a machine only starves.
-const MOST_THREADS: usize = 1024;
-
-/// Use this many threads; none: all cores.
-pub(super) fn threads(jobs: Option<usize>) -> Result<(), CommandError> {
-    if let Some(n) = jobs {
-        if n == 0 {
-            let remedy = "give at least one thread, or leave it out for one a core";
-            return Err(CommandError::option("jobs", n, remedy));
-        }
-        if n > MOST_THREADS {
-            let remedy = "give at most 1024 threads";
-            return Err(CommandError::option("jobs", n, remedy));
-        }
-        rayon::ThreadPoolBuilder::new().num_threads(n).build_global().map_err(|e| {
-            CommandError::Result(format!("--jobs {n}: {e}; give a smaller number of threads"))
-        })?;
-    }
-    Ok(())
 }

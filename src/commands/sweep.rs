@@ -8,7 +8,7 @@ use std::{
 
 use clap::{Args, Subcommand};
 
-use super::{CommandError, progress::Progress, run::threads, terminal};
+use super::{CommandError, progress::Progress, terminal};
 use run_folder::place::check_folder;
 use strong_motion::Notice;
 use sweep::{
@@ -63,6 +63,13 @@ struct SweepRunOptions {
     quiet: bool,
 }
 
+impl SweepOptions {
+    /// The threads asked for, of the sweep itself.
+    pub(super) fn jobs(&self) -> Option<usize> {
+        self.run.jobs
+    }
+}
+
 pub fn run(o: &SweepOptions) -> Result<(), CommandError> {
     match (&o.step, &o.run.sweep) {
         (Some(SweepStage::Plan(o)), _) => plan::run(o),
@@ -109,7 +116,6 @@ impl SweepRunOptions {
     fn compute(&self, sweep: &Path) -> Result<(), CommandError> {
         let plan = Plan::read(sweep)?;
         let inspected = inspected(&plan)?;
-        threads(self.jobs)?;
         let springs = begin(&plan, &inspected.hash, &self.out, self.quiet)?;
         let parts = SweepParts::new(&plan, &self.out, &inspected.hash);
         let share = self.shard.unwrap_or_default();

@@ -12,7 +12,7 @@ use clap::Args;
 use serde::Serialize;
 
 use self::model::{JudgedProgram, JudgedSprings};
-use super::{CommandError, common, progress::Progress, run::threads, terminal};
+use super::{CommandError, common, progress::Progress, terminal};
 use decks::Stepping;
 use dynamics::spring::ChainRow;
 use files::message::{one_line, significant};
@@ -84,7 +84,7 @@ pub struct ValidateOptions {
     out: PathBuf,
     /// Threads [default: all cores]
     #[arg(long, value_name = "N")]
-    jobs: Option<usize>,
+    pub(super) jobs: Option<usize>,
     /// No figure
     #[arg(long)]
     no_figures: bool,
@@ -260,7 +260,6 @@ pub fn run(o: &ValidateOptions) -> Result<(), CommandError> {
         common::restitution(o.restitution)?.unwrap_or_else(|| parameters.restitution());
     common::duration(o.duration)?;
     check_folder(&o.out)?;
-    threads(o.jobs)?;
     let mut source = RecordsSource {
         files: files(o)?,
         read: ReadOptions {

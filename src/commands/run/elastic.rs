@@ -1,6 +1,6 @@
 //! `tune run` of an elastic structure.
 
-use super::{RunOptions, springs_alone, threads};
+use super::{RunOptions, springs_alone};
 use crate::commands::{
     CommandError,
     bounds::ended,
@@ -31,7 +31,6 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     case.program = o.program.over(case.program)?;
     let friction = o.ground.friction()?;
     check_folder(&o.out)?;
-    threads(o.jobs)?;
 
     let assembled =
         Assembled::with_members(case.structure, case.members).map_err(CommandError::result)?;
