@@ -98,6 +98,61 @@ fn blocks_that_slide_far_are_newmarks_to_the_end() {
     }
 }
 
+/// What acts together with each largest force of a body that slides, beside statics: its shear is
+/// mu W and its moment mu W h; the corner that is pressed bears W/2 (1 + mu h/b), across it mu times
+/// that; nothing is above the largest of its kind.
+fn its_forces_are_of_one_sliding_body(parameters: &Value, weight: f64, (h, b): (f64, f64)) {
+    let forces = &parameters["design_forces"];
+    let largest = |key: &str| forces[key]["value"].as_f64().map(f64::abs);
+    let near = |found: f64, due: f64| assert!((found / due - 1.0).abs() < 1e-5, "{found} {due}");
+    let shear = 0.2 * weight;
+    let pressed = 0.5 * weight * (1.0 + 0.2 * h / b);
+    near(largest("corner_vertical_n").unwrap(), pressed);
+    near(largest("corner_horizontal_n").unwrap(), 0.2 * pressed);
+    for key in ["corner_vertical_n", "corner_horizontal_n"] {
+        let corner = &forces[key]["corner"];
+        near(corner["vertical_n"].as_f64().unwrap(), pressed);
+        near(corner["horizontal_n"].as_f64().unwrap().abs(), 0.2 * pressed);
+    }
+    let rows: Vec<_> = forces.as_object().unwrap().values().map(|f| &f["together"]).collect();
+    let rows: Vec<_> = rows.into_iter().filter(|row| row.is_object()).collect();
+    assert!(rows.len() > 3, "{forces}");
+    for row in rows {
+        let of = |key: &str| row[key].as_f64().map(f64::abs);
+        for (key, value) in row.as_object().unwrap() {
+            if let Some(most) = largest(&key.replace("apex_moment_nm", "none")) {
+                assert!(value.as_f64().unwrap().abs() <= most * (1.0 + 1e-9), "{key}: {row}");
+            }
+        }
+        // a block's moment is its shear times the height of its mass; a leg's, of its own foot
+        match of("apex_moment_nm") {
+            None => near(of("column_base_moment_nm").unwrap(), h * of("column_shear_n").unwrap()),
+            Some(moment) => {
+                near(moment, (b - 0.2 * h).abs() * pressed);
+                near(of("column_shear_n").unwrap(), moment / h.hypot(b));
+                near(of("axial_n").unwrap(), pressed * (h + 0.2 * b) / h.hypot(b));
+            }
+        }
+    }
+    let own = largest("sole_shear_n").or(largest("column_shear_n")).unwrap();
+    near(own, shear);
+}
+
+#[test]
+fn what_acts_together_in_a_body_that_slides_is_what_statics_say() {
+    let block = "[structure]\nkind = 'block'\ntotal_height_m = 0.9\nwidth_m = 0.28\n\
+        mass_kg = 120.0\n[friction]\ncoefficient = 0.2\n[record]\nscale = 2.0\n\
+        duration_s = 20.0\n";
+    let (said, parameters, _) = run(block, "--no-front");
+    its_forces_are_of_one_sliding_body(&parameters, 120.0 * GRAVITY, (0.45, 0.14));
+    let words = "Housner's body overturns at t = 5.53 s; its numbers count up to then";
+    assert!(said.split_whitespace().collect::<Vec<_>>().join(" ").contains(words), "{said}");
+    let frame = "[structure]\nkind = 'aframe'\nheight_m = 6.0\nwidth_m = 3.0\n\
+        mass_kg = 10e3\n[friction]\ncoefficient = 0.2\n[record]\nduration_s = 10.0\n";
+    let (_, parameters, _) = run(frame, "--no-front");
+    its_forces_are_of_one_sliding_body(&parameters, 1e4 * GRAVITY, (6.0, 1.5));
+}
+
 /// What a vertical component that is left out would change is told of the body as it is: of one
 /// that slides its slip.
 #[test]

@@ -15,12 +15,14 @@
 mod ground_row;
 mod members;
 mod near_landings;
+mod sliding;
 mod together;
 
 use self::{
     ground_row::{FORCES, GroundRow, standing_feet},
     members::member_forces,
     near_landings::near_landings,
+    sliding::upright,
     together::{ForceInstants, FoundForces},
 };
 use crate::answers::{MemberHistory, ModelComparison};
@@ -30,6 +32,7 @@ use frames::design_forces::HeldForce;
 use results::{DesignForce, DesignForces};
 use rocking::{
     housner::Rocking,
+    members::Friction,
     motion::{TimedPeak, samples_until},
     regime::{self, ground_forces},
     scalar::GRAVITY,
@@ -94,8 +97,9 @@ fn of_springs(
     let peaks = |matched: &Match, history: &History, demands: &Demands| {
         let samples = samples_until(matched.overturned_fem_s, dt).min(history.motion.len());
         let kept = all_between(body, dt, history, samples);
-        let mut peaks = on_springs(kind, body, dt, demands, &kept);
         let with = both.with.as_ref().map(|with| &with.members);
+        let friction = with.and_then(|with| with.friction);
+        let mut peaks = on_springs((kind, body), dt, demands, &kept, friction);
         let near = near_landings((kind, body), record, (history, demands), &kept, with);
         let counted = near.iter().filter(|(i, _)| *i < samples);
         counted.for_each(|(i, row)| row.raise(*i as f64 * dt, &mut peaks));
@@ -129,7 +133,7 @@ fn beside_springs(
     let samples = samples_until(fell.into_iter().flatten().reduce(f64::min), dt);
     let housner = of_housner(kind, body, record, &both.rocking, samples);
     let kept = all_between(body, dt, &both.fem, samples.min(housner.len()));
-    let springs = on_springs(kind, body, dt, &both.demands, &kept);
+    let springs = on_springs((kind, body), dt, &both.demands, &kept, None);
     let force = |k: usize| {
         let series: Vec<f64> = housner.iter().map(|row| row.largest(k)).collect();
         let all = TimedPeak::of(dt, &series).unwrap_or_default();
@@ -204,14 +208,19 @@ fn of_housner(
 /// history on springs, at these samples: between them springs ring after a foot stops or slips, by
 /// as much whatever their stiffness.
 fn on_springs(
-    kind: Kind,
-    body: &Body<f64>,
+    (kind, body): (Kind, &Body<f64>),
     dt: f64,
     demands: &Demands,
     kept: &[usize],
+    friction: Option<Friction>,
 ) -> [TimedPeak; FORCES] {
     let mut peaks = [TimedPeak::default(); FORCES];
     for &i in kept {
+        let slid = friction.and_then(|friction| upright(kind, body, friction, demands.feet[i]));
+        if let Some(row) = slid {
+            row.raise(i as f64 * dt, &mut peaks);
+            continue;
+        }
         let row = &demands.at[i];
         let stands = demands.feet[i].iter().all(|foot| foot[1] > 0.0);
         let [[left_h, left], [right_h, right]] = corner_forces(demands, i);

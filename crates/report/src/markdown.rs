@@ -253,6 +253,11 @@ fn together(run: &Run) -> Option<Section> {
                 members, between them on springs, which add nothing where one foot presses; of a \
                 body that stands by statics."
         }
+        false if run.members_words() == "with friction" => {
+            "At the time of each largest force, on springs with friction: pressing with both feet \
+                the body bears what statics say of the friction that it slides by or holds, each \
+                foot at most mu times what it presses with."
+        }
         false => "At the time of each largest force, of Housner's body.",
     };
     let higher =

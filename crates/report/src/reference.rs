@@ -347,6 +347,7 @@ fn did(answer: &Answer) -> String {
         Fate::Rocked if answer.peak_ratio >= HARDLY_ROCKS => {
             format!(", to {} of overturning", percent(answer.peak_ratio))
         }
+        Fate::Overturned => "; its numbers count up to then".into(),
         _ => String::new(),
     };
     does(answer) + &far

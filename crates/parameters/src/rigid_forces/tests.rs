@@ -118,7 +118,7 @@ fn a_dashpot_pulls_on_the_leg_or_the_base_that_it_holds() {
     let with = both.with.as_ref().unwrap();
     let (body, demands) = (block.body::<f64>(), &with.demands);
     let kept = all_between(&body, 0.01, &with.history, demands.feet.len());
-    let peaks = on_springs(Kind::Block, &body, 0.01, demands, &kept);
+    let peaks = on_springs((Kind::Block, &body), 0.01, demands, &kept, None);
     let found = peaks[MOMENT].value.abs();
     let by_hand = |&i: &usize| {
         let [left, right] = demands.feet[i].map(|foot| foot[1]);

@@ -3,6 +3,7 @@
 use super::{
     all_between,
     ground_row::{GroundRow, standing_feet},
+    sliding::upright,
 };
 use crate::answers::{MemberHistory, ModelComparison};
 use dynamics::fem::{Demands, History, corner_forces};
@@ -63,7 +64,8 @@ impl<'a> ForceInstants<'a> {
     }
 
     /// At a time (s): near a landing by the body's motion; between them by the foot that presses
-    /// alone, to which springs add nothing, or by statics where both do.
+    /// alone, to which springs add nothing, or by statics where both do: of the ground's motion, or
+    /// on friction of what the springs hold.
     fn at(&self, time: f64) -> Option<GroundRow> {
         let i = (time / self.record.dt).round() as usize;
         let (kind, body) = (self.kind, self.body);
@@ -75,6 +77,9 @@ impl<'a> ForceInstants<'a> {
         if corners.iter().any(|[_, press]| *press <= 0.0) {
             let all = corner_forces(self.demands, i);
             return Some(GroundRow { corners, ..GroundRow::new(kind, body, theta, all) });
+        }
+        if let Some(friction) = self.members.friction {
+            return upright(kind, body, friction, corners);
         }
         let at = |record: &[f64]| record.get(i).copied().unwrap_or(0.0) / GRAVITY;
         let weight = body.mass * GRAVITY;
