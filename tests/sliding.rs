@@ -99,8 +99,8 @@ fn blocks_that_slide_far_are_newmarks_to_the_end() {
 }
 
 /// What acts together with each largest force of a body that slides, beside statics: its shear is
-/// mu W and its moment mu W h; the corner that is pressed bears W/2 (1 + mu h/b), across it mu times
-/// that; nothing is above the largest of its kind.
+/// mu W and its moment mu W h; the corner that is pressed bears W/2 (1 + mu h/b), and mu times that
+/// across; nothing is above the largest of its kind.
 fn its_forces_are_of_one_sliding_body(parameters: &Value, weight: f64, (h, b): (f64, f64)) {
     let forces = &parameters["design_forces"];
     let largest = |key: &str| forces[key]["value"].as_f64().map(f64::abs);

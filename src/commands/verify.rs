@@ -72,6 +72,12 @@ pub fn run(o: &VerifyOptions) -> Result<(), CommandError> {
     let (parameters, record, excitation) = read(&o.parameters, &o.record)?;
     check_folder(&o.out)?;
     check_accuracy(o.accuracy)?;
+    if !o.quiet && slides(&parameters) {
+        terminal::stderr(
+            "feet slip on this friction: OpenSees takes many short steps then, and minutes for a \
+                record that a rocking body follows in seconds",
+        );
+    }
     let progress = Progress::new("OpenSees [s]", o.quiet);
     let until = predictable_to(&o.record, &parameters, &record);
     let result = verify(&parameters, &record, (o.accuracy, until), &program, &|done, all| {
@@ -88,6 +94,13 @@ pub fn run(o: &VerifyOptions) -> Result<(), CommandError> {
     terminal::stderr(excitation.line());
     terminal::written(&o.out);
     if result.verdict.within { Ok(()) } else { Err(CommandError::Failed(refusal(&result))) }
+}
+
+/// Whether friction gives way before the body lifts: below b/h.
+fn slides(parameters: &Parameters) -> bool {
+    let body = parameters.structure.body::<f64>();
+    let friction = parameters.members().friction;
+    friction.is_some_and(|friction| friction.coefficient * body.height < body.half_width)
 }
 
 /// All that a verification writes.
@@ -169,6 +182,11 @@ fn judged(result: &Verification) -> String {
     let verdict = &result.verdict;
     let (agrees, whether) =
         if verdict.within { ("AGREES", "within") } else { ("DOES NOT AGREE", "NOT within") };
+    let agrees = match &verdict.slip {
+        // near the largest slip, and far from where the body ends
+        Some(slip) if verdict.within && slip.error_of_last() > Slip::LIMIT => "AGREES IN PART",
+        _ => agrees,
+    };
     let agrees = agrees.to_string() + &notes::up_to(verdict.samples, &result.reach, result.dt);
     let mut out = String::new();
     let until = verdict.until.unwrap_or_default();
@@ -192,13 +210,7 @@ fn judged(result: &Verification) -> String {
         ),
     };
     let _ = match &verdict.slip {
-        Some(slip) => writeln!(
-            out,
-            "{agrees}: nothing lifts; largest and final slip of OpenSees are {whether} {} of tune \
-                simulate's largest: {}",
-            percent(Slip::LIMIT),
-            percent(slip.error())
-        ),
+        Some(slip) => writeln!(out, "{agrees}: {}", notes::slips(slip)),
         None => writeln!(
             out,
             "{agrees}: OpenSees is {whether} {LIMIT} of tune simulate's u: {:.1e}{}",
@@ -206,15 +218,6 @@ fn judged(result: &Verification) -> String {
             if verdict.stands { OF_SIZE } else { "" }
         ),
     };
-    if let Some(slip) = &verdict.slip {
-        let mm = |x: [f64; 2]| x.map(|x| format!("{:.3}", 1e3 * x));
-        let ([largest, of_deck], [last, last_of_deck]) = (mm(slip.largest_m), mm(slip.last_m));
-        let _ = writeln!(
-            out,
-            "largest slip {largest} mm, of OpenSees {of_deck} mm; final slip {last} mm, \
-                {last_of_deck} mm"
-        );
-    }
     if let Some(parted) = verdict.parted.filter(|_| verdict.slip.is_none()) {
         let _ = writeln!(out, "OpenSees first differs by 1 % of the largest u at {parted:.2} s");
     }

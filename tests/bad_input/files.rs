@@ -176,7 +176,7 @@ fn a_python_that_is_missing() {
 #[cfg(unix)]
 #[test]
 fn an_interpreter_that_runs_no_deck() {
-    verify("--python false", &["OpenSees stopped", "no message"]);
+    verify("--python false", &["ended with code 1 without a word", "--python"]);
     verify("--tcl ''", &["cannot be started", "--tcl"]);
 }
 

@@ -137,6 +137,11 @@ pub enum VerifyError {
         "verify: OpenSees did not end within {seconds:.0} s and was stopped; shorten --duration"
     )]
     Hung { seconds: f64 },
+    #[error(
+        "verify: {program} ended {how} without a word: it is no interpreter that has OpenSees; \
+            name one with --python, or with --tcl"
+    )]
+    Silent { program: String, how: String },
     #[error("verify: OpenSees stopped ({reason}); {}", after_stop(reason))]
     Stopped { reason: String },
     #[error(

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use decks::verify::{ComparedReach, OwnEnd};
-use files::message::significant;
+use decks::verify::{ComparedReach, OwnEnd, Slip};
+use files::message::{percent, significant};
 use rocking::motion::{Motion, peak};
 
 /// Up to when something is told, if that is not the record's end, after the word of the verdict.
@@ -48,12 +48,19 @@ pub(super) fn notes(reach: &ComparedReach, dt: f64) -> String {
         let _ = writeln!(out, "compared up to {at}: there {why}");
     }
     if reach.housner < reach.samples {
-        let _ = writeln!(
-            out,
-            "Housner's history counts up to {:.2} s: it ends there, or the ground would have to \
-                pull its pivot down",
-            seconds(reach.housner, dt)
-        );
+        let _ = match reach.housner_overturns_s {
+            Some(time) => writeln!(
+                out,
+                "Housner's history counts up to {time:.2} s: his body overturns there, the one on \
+                    springs does not"
+            ),
+            None => writeln!(
+                out,
+                "Housner's history counts up to {:.2} s: it ends there, or the ground would have \
+                    to pull its pivot down",
+                seconds(reach.housner, dt)
+            ),
+        };
     }
     if let Some(added) = &reach.added {
         let [own, deck] = added.largest_m.map(|u| significant(1e3 * u, 5));
@@ -72,13 +79,40 @@ pub(super) fn notes(reach: &ComparedReach, dt: f64) -> String {
     out
 }
 
+/// How far OpenSees' slip is from ours, of a body that slides and never lifts: the larger
+/// difference is judged over the largest slip, the final one told over itself as well.
+pub(super) fn slips(slip: &Slip) -> String {
+    let mm = |x: [f64; 2]| x.map(|x| format!("{:.3} mm", 1e3 * x));
+    let ([largest, of_deck], [last, last_of_deck]) = (mm(slip.largest_m), mm(slip.last_m));
+    let share = |error: f64| match error.is_finite() {
+        true => percent(error),
+        false => "all".into(),
+    };
+    format!(
+        "nothing lifts; the largest slip of OpenSees differs by {}, the final one by {} of \
+            itself;\nthe larger difference is {} of tune simulate's largest slip, of {} allowed\n\
+            largest slip {largest}, of OpenSees {of_deck}; final slip {last}, of OpenSees \
+            {last_of_deck}",
+        share(slip.error_of_largest()),
+        share(slip.error_of_last()),
+        percent(slip.error()),
+        percent(Slip::LIMIT)
+    )
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use decks::verify::AddedInertia;
 
-    const ALL: ComparedReach =
-        ComparedReach { samples: 501, of: 501, own_end: None, housner: 501, added: None };
+    const ALL: ComparedReach = ComparedReach {
+        samples: 501,
+        of: 501,
+        own_end: None,
+        housner: 501,
+        housner_overturns_s: None,
+        added: None,
+    };
 
     #[test]
     fn a_history_that_ends_early_says_when_and_why_and_one_that_does_not_says_nothing() {
@@ -91,6 +125,9 @@ mod tests {
         assert_eq!(up_to(501, &fallen, 0.01), " up to 3.00 s");
         let steps = ComparedReach { own_end: Some(OwnEnd::WorkBound), ..fallen };
         assert!(notes(&steps, 0.01).contains("bound on steps"));
+        let slides = ComparedReach { housner: 201, housner_overturns_s: Some(2.004), ..ALL };
+        let said = notes(&slides, 0.01);
+        assert!(said.contains("up to 2.00 s: his body overturns there"), "{said}");
     }
 
     #[test]
@@ -106,6 +143,22 @@ mod tests {
         for part in ["4819 kg m2", "96.38 kg m2", "436.8 mm", "436.64 mm", "1.5 mm apart"] {
             assert!(said.contains(part), "{said}");
         }
+    }
+
+    /// 4.451 mm and 4.210 mm are 5.41 % apart, which is 0.646 % of a largest slip of 37.33 mm.
+    #[test]
+    fn a_final_slip_is_told_over_itself_and_over_the_largest() {
+        let slip = Slip { largest_m: [0.037_33, 0.037_36], last_m: [0.004_451, 0.004_21] };
+        let said = slips(&slip);
+        for part in ["OpenSees differs by 0.080 %", "the final one by 5.41 % of itself"] {
+            assert!(said.contains(part), "{said}");
+        }
+        assert!(
+            said.contains("is 0.646 % of tune simulate's largest slip, of 1.00 % allowed"),
+            "{said}"
+        );
+        let nowhere = Slip { last_m: [0.0, 1e-4], ..slip };
+        assert!(slips(&nowhere).contains("the final one by all of itself"));
     }
 
     #[test]

@@ -131,13 +131,16 @@ impl Program {
             _ if complaint.contains("No module named opensees") => {
                 Err(VerifyError::NoTcl { command: self.name() })
             }
-            _ => {
+            code => {
                 let reason = complaint
                     .lines()
                     .rev()
                     .map(str::trim)
-                    .find(|line| !line.is_empty() && !line.starts_with("Process 0"))
-                    .unwrap_or("no message");
+                    .find(|line| !line.is_empty() && !line.starts_with("Process 0"));
+                let Some(reason) = reason else {
+                    let how = code.map_or("by a signal".into(), |code| format!("with code {code}"));
+                    return Err(VerifyError::Silent { program: self.name(), how });
+                };
                 Err(VerifyError::Stopped { reason: reason.chars().take(200).collect() })
             }
         }

@@ -50,8 +50,10 @@ pub struct ComparedReach {
     /// What ends our own history there, if that does.
     pub own_end: Option<OwnEnd>,
     /// Samples from the start that Housner's history counts for: his pivot would have to be pulled
-    /// down then, or his history ends.
+    /// down then, or his history ends, or he overturns and the body on springs does not.
     pub housner: usize,
+    /// When he overturns, if that ends them (s).
+    pub housner_overturns_s: Option<f64>,
     /// What the deck's body has that the structure has not.
     pub added: Option<AddedInertia>,
 }
@@ -71,12 +73,17 @@ impl ComparedReach {
         let regime = check_with(&body, &members, (record.dt, 1.0), ground, rocking, f64::INFINITY);
         let flight = regime.free_flight.map(|flight| flight.time);
         let ends = rocking.left_ground().into_iter().chain(flight).reduce(f64::min);
+        let stands = samples_to_fall(&history.motion.theta) >= history.motion.len();
+        let overturns_s = rocking.overturned().filter(|_| stands);
+        let overturns_s = overturns_s.filter(|time| ends.is_none_or(|end| *time < end));
+        let ends = overturns_s.or(ends);
         let ended = samples >= history.motion.len().min(samples_to_fall(&history.motion.theta));
         Self {
             samples,
             of: record.len(),
             own_end: own_end(history).filter(|_| ended && samples < record.len()),
             housner: samples_until(ends, record.dt).min(rocking.theta.len()).min(samples),
+            housner_overturns_s: overturns_s.filter(|time| *time < samples as f64 * record.dt),
             added: None,
         }
     }
@@ -131,7 +138,7 @@ mod tests {
     use dynamics::spring::{Design, Springs};
     use rocking::{
         housner::{self, RockingOptions},
-        members::{Damper, Members},
+        members::{Damper, Friction, Members},
     };
 
     fn parameters(structure: Structure) -> Parameters {
@@ -170,6 +177,25 @@ mod tests {
         let record = record.with_vertical(Record::new("up", 0.01, up).unwrap()).unwrap();
         let (_, reach) = reach(&block, &record);
         assert!((100..=101).contains(&reach.housner), "{reach:?}");
+    }
+
+    /// On friction of half of b/h a block slides under the push that topples Housner's.
+    #[test]
+    fn housners_history_counts_until_he_overturns_beside_a_body_that_slides() {
+        let friction = Some(Friction { coefficient: 0.125 });
+        let block = parameters(Structure::block(2.0, 0.5, 1000.0).unwrap())
+            .with_members(Members { friction, ..Members::default() });
+        let record = Record::new("push", 0.01, vec![6.0; 400]).unwrap();
+        let (history, slides) = reach(&block, &record);
+        let body = block.structure.body::<f64>();
+        assert_eq!(slides.samples, history.motion.len());
+        let options = RockingOptions::on(&record, block.restitution());
+        let rocking = housner::solve(&body, record.dt, &record.accel, &options);
+        let time = rocking.overturned().unwrap();
+        assert_eq!(slides.housner_overturns_s, Some(time));
+        let last = slides.housner - 1;
+        assert!(rocking.theta[last].abs() <= body.alpha(), "{slides:?}");
+        assert!(rocking.theta[last + 1].abs() > body.alpha(), "{slides:?}");
     }
 
     /// A point mass with dampers has 5e-4 m R^2 in a deck: said, with how far that moves it. A body

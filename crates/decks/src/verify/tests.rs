@@ -92,6 +92,14 @@ fn an_analysis_that_stops_gives_its_last_words() {
 
 #[cfg(unix)]
 #[test]
+fn an_interpreter_that_ends_without_a_word_is_told_to_be_none() {
+    let said = with_stand_in("exit 1").unwrap_err().to_string();
+    assert!(said.contains("ended with code 1 without a word"), "{said}");
+    assert!(said.contains("--python") && !said.contains("--duration"), "{said}");
+}
+
+#[cfg(unix)]
+#[test]
 fn a_deck_that_writes_no_history_is_an_error() {
     let error = with_stand_in("echo 'within 1 %: yes'").unwrap_err();
     assert!(matches!(error, VerifyError::History { .. }), "{error}");

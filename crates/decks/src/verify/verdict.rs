@@ -53,6 +53,22 @@ impl Slip {
         let most = apart(self.largest_m).max(apart(self.last_m));
         if most == 0.0 { 0.0 } else { most / self.largest_m[0] }
     }
+
+    /// Difference of the largest slips, over ours; infinite over none.
+    pub fn error_of_largest(&self) -> f64 {
+        relative(self.largest_m)
+    }
+
+    /// Difference of the last slips over our last, which may be far less than the largest; infinite
+    /// over none.
+    pub fn error_of_last(&self) -> f64 {
+        relative(self.last_m)
+    }
+}
+
+/// How far the second is from the first, over the first.
+fn relative([ours, opensees]: [f64; 2]) -> f64 {
+    if ours == opensees { 0.0 } else { ((opensees - ours) / ours).abs() }
 }
 
 impl OpenSeesVerdict {
@@ -152,6 +168,10 @@ mod tests {
         let near = judged(&slide(0.020_18, 0.005, 0.014_82));
         assert!(near.within && (near.slip.unwrap().error() - 0.009).abs() < 1e-9, "{near:?}");
         assert!(near.error > LIMIT);
+        // 0.18 mm of 20 mm, and of 15 mm
+        let [largest, last] =
+            near.slip.map(|slip| [slip.error_of_largest(), slip.error_of_last()]).unwrap();
+        assert!((largest - 0.009).abs() < 1e-9 && (last - 0.012).abs() < 1e-9, "{near:?}");
         assert!(!judged(&slide(0.020_22, 0.018, 0.015)).within);
         assert!(!judged(&slide(0.02, 0.018, 0.015_22)).within);
     }
