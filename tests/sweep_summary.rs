@@ -130,6 +130,12 @@ fn structures_of_one_shape_are_told_apart_by_their_restitution() {
     same.says(&format!("{name}, number 2, e = 0.9, by"));
     same.does_not_say("equation 2");
     own.shows("ida.svg", "block R 1.031 m, alpha 0.245, e = 0.72");
+    // one alone, too
+    let alone = format!(
+        "[sweep]\nkind = \"fragility\"\n{BLOCK}restitution = 0.5\n[records]\nel_centro = true\n\
+         [levels]\npga_g = [0.5]\n"
+    );
+    SweepRun::new(&alone, "").says(&format!("{name}, e = 0.5, by"));
     SweepRun::new(&spec("restitution = [0.9, 0.8]"), "")
         .shows("ida.svg", "Peak rotation against PGA [g], 1 motion, e = 0.9");
 }

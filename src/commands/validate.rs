@@ -155,10 +155,15 @@ impl RecordsSource {
                 }
                 Err(error) => {
                     let reason = one_line(&error.to_string());
-                    terminal::stderr(format_args!("left out: {reason}"));
                     unread.push(Unread { file: file.display().to_string(), reason });
                 }
             }
+        }
+        // of one file alone, the error says it
+        if self.len() > 0 || unread.len() > 1 {
+            unread.iter().for_each(|unread: &Unread| {
+                terminal::stderr(format_args!("left out: {}", unread.reason));
+            });
         }
         tell_vertical(&vertical);
         unread

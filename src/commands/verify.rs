@@ -74,8 +74,8 @@ pub fn run(o: &VerifyOptions) -> Result<(), CommandError> {
     check_accuracy(o.accuracy)?;
     if !o.quiet && slides(&parameters) {
         terminal::stderr(
-            "feet slip on this friction: OpenSees takes many short steps then, and minutes for a \
-                record that a rocking body follows in seconds",
+            "feet slip on this friction: OpenSees takes some hundred thousand steps, a minute or \
+                more, where a body that rocks takes seconds",
         );
     }
     let progress = Progress::new("OpenSees [s]", o.quiet);

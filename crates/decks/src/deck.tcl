@@ -38,7 +38,7 @@ set recordDt       @RECORD_DT@ ;# s
 set accuracy @ACCURACY@ ;# of the history, as a normalised error: @ACCURACY_NOTE@
 set landing  @LANDING@ ;# 1/Omega_n of the vertical k1, s
 set rise     @RISE@ ;# of a foot, m, from which on its motion counts: a hundredth of where the body topples
-set stepsPerSample @STEPS@ ;# at least; more change nothing
+set stepsPerSample @STEPS@ ;# at least; @STEPS_NOTE@
 set samples        @SAMPLES@ ;# of the record that are followed: @DURATION@ s
 set compared       @COMPARED@ ;# of these that `expected` is of, to @COMPARED_S@ s; fewer where @BEYOND@
 set tolerance      @TOLERANCE@ ;# of Newton's displacements, m

@@ -20,6 +20,8 @@ pub(super) struct Language {
     /// The call that sets an integrator: its name and numbers.
     integrator: fn(&[String]) -> String,
     solver: &'static str,
+    /// What of the solver and the routine is otherwise where feet slip: as it is, and then.
+    sliding: [[&'static str; 2]; 2],
     epilogue: &'static str,
     /// What ends the epilogue, and what stops it with a reason.
     ends: &'static str,
@@ -50,6 +52,14 @@ pub(super) static PYTHON: Language = Language {
         [] => String::new(),
     },
     solver: include_str!("solver.py"),
+    sliding: [
+        [
+            "    ops.algorithm(\"Newton\")\n",
+            "    # Full steps would lift a foot that slips, unless they take microseconds.\n    \
+                ops.algorithm(\"NewtonLineSearch\")\n",
+        ],
+        ["self.shortest if h > self.shortest else 0.25 * h\n", "0.25 * h\n"],
+    ],
     epilogue: include_str!("epilogue.py"),
     ends: "    return 0 if good else 1\n",
     stops: ["    stop(\"", "\")\n"],
@@ -69,6 +79,14 @@ pub(super) static TCL: Language = Language {
     even_numbers: ["set step ", "set substeps ", "set touches "],
     integrator: |arguments| format!("solver {{{}}} Transient", arguments.join(" ")),
     solver: include_str!("solver.tcl"),
+    sliding: [
+        [
+            "    algorithm Newton\n",
+            "    # Full steps would lift a foot that slips, unless they take microseconds.\n    \
+                algorithm NewtonLineSearch\n",
+        ],
+        ["{$h > $shortest ? $shortest : 0.25 * $h}", "{0.25 * $h}"],
+    ],
     epilogue: include_str!("epilogue.tcl"),
     ends: "exit [expr {1 - $good}]\n",
     stops: ["stop \"", "\"\n"],
@@ -156,6 +174,13 @@ impl Language {
             &self.samples(&record.accel),
             1,
         ))
+    }
+
+    /// The text of a deck of a body that slides and does not lift: no landing asks for the shortest
+    /// steps after one that was refused.
+    pub(crate) fn of_a_slide(&self, text: &str) -> String {
+        let [solver, routine] = self.sliding;
+        text.replacen(solver[0], solver[1], 1).replacen(routine[0], routine[1], 1)
     }
 
     /// The routine of steps of one size, its numbers above it.

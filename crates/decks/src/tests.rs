@@ -3,6 +3,7 @@
 mod corner_history;
 mod elastic_tables;
 mod refusal;
+mod sliding;
 mod stepping;
 
 use std::{collections::HashMap, process::Command};

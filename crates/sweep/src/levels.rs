@@ -93,19 +93,21 @@ impl LevelAnswer {
 }
 
 /// The levels of one structure and restitution by one model that tell most, at most so many: from
-/// the last at which nothing overturns to the first at which everything does.
+/// the last at which nothing overturns to the first at which everything does; and at how many there
+/// are histories that count.
 pub(crate) fn telling<'a>(
     plan: &Plan,
     points: impl Iterator<Item = &'a IdaPoint>,
     z: f64,
     most: usize,
-) -> Vec<LevelAnswer> {
+) -> (Vec<LevelAnswer>, usize) {
     let mut all: Vec<LevelAnswer> =
         points.filter_map(|point| LevelAnswer::new(plan, point, z)).collect();
     all.sort_by(|a, b| a.level.total_cmp(&b.level));
     let most = most.max(2);
-    if all.len() <= most {
-        return all;
+    let count = all.len();
+    if count <= most {
+        return (all, count);
     }
     let from =
         all.iter().position(|row| row.overturned > 0.0).unwrap_or(all.len()).saturating_sub(1);
@@ -113,7 +115,27 @@ pub(crate) fn telling<'a>(
     let to = all.iter().rposition(|row| row.overturned < 1.0).map_or(0, |last| last + 1);
     let to = to.clamp(from + most - 1, all.len() - 1);
     let place = |i: usize| from + (i * (to - from) + (most - 1) / 2) / (most - 1);
-    (0..most).map(|i| all[place(i)].clone()).collect()
+    ((0..most).map(|i| all[place(i)].clone()).collect(), count)
+}
+
+/// Which of a structure's levels are shown, if not all: of `counting` some history counts.
+pub(crate) fn shown_words(shown: usize, counting: usize, all: usize) -> String {
+    let none = match counting < all {
+        true => format!(
+            "{} {} without a history that counts, since all failed or left the ground",
+            all - counting,
+            if all - counting == 1 { "level is" } else { "levels are" }
+        ),
+        false => String::new(),
+    };
+    match (shown < counting, counting < all) {
+        (false, false) => String::new(),
+        (true, false) => format!(" {shown} of its {all} levels, spread evenly; ida.csv has all:"),
+        (false, true) => format!(" {shown} of its {all} levels; {none}:"),
+        (true, true) => format!(
+            " {shown} of its {all} levels, spread evenly over {counting}; {none}; ida.csv has all:"
+        ),
+    }
 }
 
 /// Columns of `ida.csv` beside those of the peaks: bounds on the share that overturns,
@@ -180,5 +202,21 @@ mod tests {
             frame.body::<f64>().u(0.3 * frame.body::<f64>().alpha())
         );
         assert_eq!(LeanDisplacements::new(&block, f64::INFINITY).top_m, f64::INFINITY);
+    }
+
+    #[test]
+    fn levels_that_were_thinned_out_and_those_without_a_history_are_told_apart() {
+        assert_eq!(shown_words(5, 5, 5), "");
+        assert_eq!(
+            shown_words(10, 12, 12),
+            " 10 of its 12 levels, spread evenly; ida.csv has all:"
+        );
+        assert_eq!(
+            shown_words(3, 3, 5),
+            " 3 of its 5 levels; 2 levels are without a history that counts, since all failed or \
+             left the ground:"
+        );
+        let both = shown_words(10, 15, 16);
+        assert!(both.contains("10 of its 16 levels, spread evenly over 15; 1 level is"), "{both}");
     }
 }

@@ -210,7 +210,8 @@ fn at_levels(
         .filter(|member| member.subject.is_some_and(|i| i < SPOKEN_OF))
         .count();
     let most = (LEVEL_ROWS / groups.max(1)).clamp(ROWS_EACH.0, ROWS_EACH.1);
-    let rows = levels::telling(plan, ida.points.iter().filter(mine), fragility.half_width(), most);
+    let (rows, counting) =
+        levels::telling(plan, ida.points.iter().filter(mine), fragility.half_width(), most);
     let measure = match plan.measure {
         Measure::Scale => "scale",
         Measure::PgaG => "PGA [g]",
@@ -225,10 +226,7 @@ fn at_levels(
         None => "g tan(alpha)",
     };
     let all = ida.points.iter().filter(mine).count();
-    let shown = match all > rows.len() {
-        true => format!(" {} of its {all} levels, spread evenly; ida.csv has all:", rows.len()),
-        false => String::new(),
-    };
+    let shown = levels::shown_words(rows.len(), counting, all);
     let mut text = format!(
         "  {} at PGA = {at} = {:.3} g.{shown}\n\
          \n  | {measure} | P(overturn) | {:.0} % bounds | lifts | {top} moves, median / 84 % [mm] \

@@ -131,12 +131,10 @@ fn checked_name(source: &SweepSource, name: &Spanned<String>) -> Result<String, 
     Ok(text.into())
 }
 
-/// The structures' restitutions in their names, where some are equation 2's and others are not, or
-/// where several were given.
+/// The structures' restitutions in their names, where not all are equation 2's.
 fn name_restitutions(subjects: &mut [Subject]) {
     let of_equation_2 = |subject: &Subject| subject.restitution == subject.body.restitution();
-    let first = subjects[0].restitution;
-    if subjects.iter().all(of_equation_2) || subjects.iter().all(|s| s.restitution == first) {
+    if subjects.iter().all(of_equation_2) {
         return;
     }
     for subject in subjects {
