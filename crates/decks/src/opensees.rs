@@ -6,7 +6,10 @@ use super::{
     language::{Language, PYTHON, TCL, record_note},
     model::{A_PAIR, DeckModel, LEG_STIFFNESS, digits},
 };
-use rocking::{members::Members, scalar::GRAVITY};
+use rocking::{
+    members::{Friction, Members},
+    scalar::GRAVITY,
+};
 
 /// The deck for openseespy.
 pub(super) fn python(model: &DeckModel) -> Result<String, ExportError> {
