@@ -19,9 +19,9 @@
 //! earthquake-like motions most. Both are measured: springs are stepped as the program does, on the
 //! synthetic motions that a run's other springs are judged on. Stances are tried from the stiffest
 //! on. One will do if nearly all histories come through and their median error is at most 1.7 times
-//! the floor; the first that will do is taken. Where a user asks for a program, all are tried,
-//! stiffer ones too if the integrator ends stiff modes; of those whose medians are alike, the one
-//! is taken whose peaks err least on earthquake-like motions. What is told of the springs on
+//! the floor; the first that will do is taken, from 10 on. If a user asks for a program, all are
+//! tried, stiffer ones too if the integrator ends stiff modes; of those whose medians are alike, it
+//! takes the one whose peaks err least on earthquake-like motions. What is told of the springs on
 //! synthetic motions is then measured on 48 that chose nothing. On earthquake-like motions they are
 //! measured in every run.
 
@@ -44,6 +44,9 @@ use rocking::structure::Body;
 
 /// k_e alpha^2 dt/(m p): the stances that are tried.
 pub const STANCES: [f64; 4] = [DesignNumbers::EVEN.stance, 10.0, 7.0, 5.0];
+/// The first of them where no program was asked for: fewer motions choose, and a run's own record,
+/// which does not, is to come through.
+const UNASKED: usize = 1;
 /// Stiffer ones, which sway less before they lift, for integrators that end stiff modes.
 const STIFFER: [f64; 2] = [48.0, 20.0];
 /// Median error that springs may have, over the floor.
@@ -184,7 +187,8 @@ impl ProgramSprings {
         let ends_modes = asked && program.integrator.ends_stiff_modes();
         let stiffer = if ends_modes { &STIFFER[..] } else { &[] };
         let mut tried = Vec::new();
-        for &stance in stiffer.iter().chain(&STANCES) {
+        let stances = if asked { &STANCES[..] } else { &STANCES[UNASKED..] };
+        for &stance in stiffer.iter().chain(stances) {
             if effort.stopped() {
                 break;
             }
@@ -210,7 +214,8 @@ impl ProgramSprings {
         Ok(found)
     }
 
-    /// The first springs that [`Self::measured`] tries, in closed form: at once, but not measured.
+    /// The first springs that [`Self::measured`] tries unasked, in closed form: at once, but not
+    /// measured.
     ///
     /// # Errors
     /// As there.
@@ -218,7 +223,9 @@ impl ProgramSprings {
         body: &Body<f64>,
         program: FixedStepProgram,
     ) -> Result<Self, FixedStepSpringsError> {
-        Self::designed(body, program, design(body, program.step))
+        let stance = STANCES[UNASKED];
+        let design = FixedStepDesign { stance, ..design(body, program.step) };
+        Self::designed(body, program, design)
     }
 
     fn designed(

@@ -108,12 +108,11 @@ fn a_deck_that_ends_before_its_record_says_so() {
     assert!(after.contains("predicted to 3.00 s") && !after.contains("another step"), "{after}");
 }
 
-/// Steps of 20 ms are too long for a block 2 m tall.
 /// A deck that ends where the emulation gives up does not end as one that has followed its record:
 /// its last line stops it, which is exit code 2.
 #[test]
 fn a_deck_without_the_end_of_its_record_stops() {
-    let whole = for_program(ProgramName::OpenSees, 0.002);
+    let whole = for_program(ProgramName::OpenSees, 0.001);
     let mut cut = whole.clone();
     let row = cut.program.as_mut().unwrap();
     // without algorithmic damping nothing ends what a landing leaves in the springs
