@@ -6,7 +6,7 @@
 //!                        stance   80 (p/(alpha Omega_e))^2
 //!                        rebound  20 alpha^3 (v_r/v_n)^2,   v_r/v_n about 1.7 K
 //!
-//!   stance  = floor/2, or more  ->  k_e = k1 K/(1 + K) = 12 m p/(alpha^2 dt), or 10, 7, 5 of it
+//!   stance  = 0.6 floor         ->  k_e = k1 K/(1 + K) = 10 m p/(alpha^2 dt), or 12, 7, 5 of it
 //!   rebound = 3/4 floor         ->  K = sqrt(3 13 p dt/(4 20 1.7^2 alpha^3)),  at most 1/2
 //!   units   mu = mu_u(K) M/2,  C = C_u(K) sqrt(M)  of what lands (`landing::design`)
 //!           Omega_h/Omega_v at least 4, more under stocky frames
@@ -43,7 +43,7 @@ use fixed_steps::{
 use rocking::structure::Body;
 
 /// k_e alpha^2 dt/(m p): the stances that are tried.
-pub const STANCES: [f64; 4] = [DesignNumbers::EVEN.stance, 10.0, 7.0, 5.0];
+pub const STANCES: [f64; 4] = [12.0, DesignNumbers::EVEN.stance, 7.0, 5.0];
 /// The first of them where no program was asked for: fewer motions choose, and a run's own record,
 /// which does not, is to come through.
 const UNASKED: usize = 1;
@@ -179,7 +179,7 @@ impl ProgramSprings {
     ) -> Result<Self, FixedStepSpringsError> {
         let own = design(body, program.step);
         let of = |stance| Self::designed(body, program, FixedStepDesign { stance, ..own });
-        let first = of(STANCES[0])?;
+        let first = Self::designed(body, program, own)?;
         if body.p() * program.step > LONGEST || effort.stopped() {
             return Ok(first);
         }
@@ -223,9 +223,7 @@ impl ProgramSprings {
         body: &Body<f64>,
         program: FixedStepProgram,
     ) -> Result<Self, FixedStepSpringsError> {
-        let stance = STANCES[UNASKED];
-        let design = FixedStepDesign { stance, ..design(body, program.step) };
-        Self::designed(body, program, design)
+        Self::designed(body, program, design(body, program.step))
     }
 
     fn designed(

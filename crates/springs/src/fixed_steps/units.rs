@@ -42,7 +42,7 @@ pub struct DesignNumbers {
 impl DesignNumbers {
     /// `cargo bench --bench fixed_steps -- numbers` has them beside others.
     pub const EVEN: Self =
-        Self { stance: 12.0, rebound: 0.75, rebound_over_k: 1.7, largest_k: 0.5, mu: 0.5 };
+        Self { stance: 10.0, rebound: 0.75, rebound_over_k: 1.7, largest_k: 0.5, mu: 0.5 };
     /// The body's own landing. The stance is that of the substep
     /// ([`FixedStepSprings::refined`]), not this one.
     pub const AT_TOUCHES: Self =
