@@ -44,7 +44,7 @@ impl DesignNumbers {
     pub const EVEN: Self =
         Self { stance: 10.0, rebound: 0.75, rebound_over_k: 1.7, largest_k: 0.5, mu: 0.5 };
     /// The body's own landing. The stance is that of the substep
-    /// ([`FixedStepSprings::refined`]), not this one.
+    /// (`FixedStepSprings::refined`), not this one.
     pub const AT_TOUCHES: Self =
         Self { rebound: 0.5, rebound_over_k: 0.8, largest_k: 0.25, mu: 1.0, ..Self::EVEN };
 
