@@ -260,26 +260,37 @@ impl ProgramSprings {
     }
 
     /// Of those that will do, and are alike on synthetic motions, the springs whose peaks err least
-    /// on earthquake-like ones; the nearest where none will do.
+    /// on earthquake-like ones; of all that will do where these would be of no use; the nearest
+    /// where none will do.
     fn best(tried: Vec<Self>, earthquakes: &[ReferenceHistory], effort: &Effort) -> Option<Self> {
-        let least = |of: &[Self], rank: fn(&Self) -> f64| {
-            of.iter().min_by(|a, b| rank(a).total_cmp(&rank(b))).cloned()
+        let least = |of: &mut dyn Iterator<Item = &Self>, rank: fn(&Self) -> f64| {
+            of.min_by(|a, b| rank(a).total_cmp(&rank(b))).cloned()
         };
-        let (mut alike, others): (Vec<_>, Vec<_>) = tried.into_iter().partition(Self::will_do);
-        let Some(closest) = least(&alike, Self::median) else {
-            return least(&others, Self::distance);
+        let (mut found, others): (Vec<_>, Vec<_>) = tried.into_iter().partition(Self::will_do);
+        let Some(mut best) = least(&mut found.iter(), Self::median) else {
+            return least(&mut others.iter(), Self::distance);
         };
-        alike.retain(|springs| springs.median() <= ALIKE * closest.median());
-        for springs in &mut alike {
-            if effort.stopped() {
-                return Some(closest);
+        for most in [ALIKE * best.median(), f64::INFINITY] {
+            for springs in &mut found {
+                if effort.stopped() {
+                    return Some(best);
+                }
+                if springs.median() <= most && springs.earthquakes.is_none() {
+                    springs.earthquakes = springs.errors(earthquakes);
+                }
             }
-            springs.earthquakes = springs.errors(earthquakes);
+            let mut measured = found.iter().filter(|springs| springs.median() <= most);
+            best = least(&mut measured, Self::earthquake_peaks).unwrap_or(best);
+            if best.peaks().1 {
+                break;
+            }
         }
-        let peaks = |springs: &Self| {
-            springs.earthquakes.as_ref().map_or(0.0, |errors| errors.peak_quantile(0.5))
-        };
-        least(&alike, peaks)
+        Some(best)
+    }
+
+    /// What peaks of earthquake-like motions err, in the median.
+    fn earthquake_peaks(&self) -> f64 {
+        self.earthquakes.as_ref().map_or(0.0, |errors| errors.peak_quantile(0.5))
     }
 
     /// What histories of synthetic motions err, in the median.
