@@ -72,7 +72,8 @@ pub fn run(o: &VerifyOptions) -> Result<(), CommandError> {
     let (parameters, record, excitation) = read(&o.parameters, &o.record)?;
     check_folder(&o.out)?;
     check_accuracy(o.accuracy)?;
-    if !o.quiet && slides(&parameters) {
+    let body = parameters.structure.body::<f64>();
+    if !o.quiet && parameters.members().friction.is_some_and(|friction| friction.slides(&body)) {
         terminal::stderr(
             "feet slip on this friction: OpenSees takes some hundred thousand steps, a minute or \
                 more, where a body that rocks takes seconds",
@@ -94,13 +95,6 @@ pub fn run(o: &VerifyOptions) -> Result<(), CommandError> {
     terminal::stderr(excitation.line());
     terminal::written(&o.out);
     if result.verdict.within { Ok(()) } else { Err(CommandError::Failed(refusal(&result))) }
-}
-
-/// Whether friction gives way before the body lifts: below b/h.
-fn slides(parameters: &Parameters) -> bool {
-    let body = parameters.structure.body::<f64>();
-    let friction = parameters.members().friction;
-    friction.is_some_and(|friction| friction.coefficient * body.height < body.half_width)
 }
 
 /// All that a verification writes.

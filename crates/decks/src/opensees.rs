@@ -6,10 +6,7 @@ use super::{
     language::{Language, PYTHON, TCL, record_note},
     model::{A_PAIR, DeckModel, LEG_STIFFNESS, digits},
 };
-use rocking::{
-    members::{Friction, Members},
-    scalar::GRAVITY,
-};
+use rocking::{members::Members, scalar::GRAVITY};
 
 /// The deck for openseespy.
 pub(super) fn python(model: &DeckModel) -> Result<String, ExportError> {
@@ -31,11 +28,10 @@ const HOLDS: f64 = 1e7;
 /// 4.14 mm, with these at 4.40 mm.
 const OF_A_SLIDE: usize = 20;
 
-/// Whether friction gives way before the body lifts: below b/h.
+/// Whether feet slip, in steps that follow touches.
 fn slides(model: &DeckModel) -> bool {
-    let body = model.body();
-    let gives = |friction: Friction| friction.coefficient * body.height < body.half_width;
-    model.even.is_none() && model.members.friction.is_some_and(gives)
+    let friction = model.members.friction;
+    model.even.is_none() && friction.is_some_and(|friction| friction.slides(&model.body()))
 }
 
 fn accuracy_note(model: &DeckModel) -> String {

@@ -56,6 +56,13 @@ pub struct Friction {
     pub coefficient: f64,
 }
 
+impl Friction {
+    /// Whether it gives way before the body lifts: below b/h.
+    pub fn slides(&self, body: &Body<f64>) -> bool {
+        self.coefficient * body.height < body.half_width
+    }
+}
+
 /// Everything besides the rigid body; by default nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Members {

@@ -19,7 +19,7 @@ use strong_motion::Record;
 /// Largest forces of a history, and those near its landings that its motion tells.
 pub(super) struct FoundForces<const N: usize> {
     pub peaks: [TimedPeak; N],
-    /// Each with the number of its sample, in order of time.
+    /// Each row with the index of the sample it is of, in order of time.
     pub near: Vec<(usize, GroundRow)>,
 }
 
