@@ -28,7 +28,7 @@ use figures::{
 };
 use files::message::percent;
 use parameters::{Parameters, elastic::ElasticParameters, predictability::ForetoldEnd};
-use rocking::motion::Motion;
+use rocking::{members::slides, motion::Motion};
 use run_folder::{
     folder::Folder, folder::identity, folder::of_one_run, pictures::subtitle, place::check_folder,
     place::write_file, tables::csv_row,
@@ -73,7 +73,7 @@ pub fn run(o: &VerifyOptions) -> Result<(), CommandError> {
     check_folder(&o.out)?;
     check_accuracy(o.accuracy)?;
     let body = parameters.structure.body::<f64>();
-    if !o.quiet && parameters.members().friction.is_some_and(|friction| friction.slides(&body)) {
+    if !o.quiet && parameters.members().friction.is_some_and(|friction| slides(&friction, &body)) {
         terminal::stderr(
             "feet slip on this friction: OpenSees takes some hundred thousand steps, a minute or \
                 more, where a body that rocks takes seconds",

@@ -6,7 +6,10 @@ use super::{
     language::{Language, PYTHON, TCL, record_note},
     model::{A_PAIR, DeckModel, LEG_STIFFNESS, digits},
 };
-use rocking::{members::Members, scalar::GRAVITY};
+use rocking::{
+    members::{Members, slides},
+    scalar::GRAVITY,
+};
 
 /// The deck for openseespy.
 pub(super) fn python(model: &DeckModel) -> Result<String, ExportError> {
@@ -29,9 +32,9 @@ const HOLDS: f64 = 1e7;
 const OF_A_SLIDE: usize = 20;
 
 /// Whether feet slip, in steps that follow touches.
-fn slides(model: &DeckModel) -> bool {
-    let friction = model.members.friction;
-    model.even.is_none() && friction.is_some_and(|friction| friction.slides(&model.body()))
+fn slips(model: &DeckModel) -> bool {
+    let friction = model.members.friction.as_ref();
+    model.even.is_none() && friction.is_some_and(|friction| slides(friction, &model.body()))
 }
 
 fn accuracy_note(model: &DeckModel) -> String {
@@ -48,7 +51,7 @@ fn fill(language: &Language, template: &str, model: &DeckModel) -> Result<String
     let (v, h) = (&model.springs.vertical, &model.springs.horizontal);
     let e = &model.expected;
     let Members { damper, tendon, friction } = model.members;
-    let slides = slides(model);
+    let slides = slips(model);
     let (steps, steps_note) = match slides {
         true => (OF_A_SLIDE, "the error of steps tells nothing of a slide"),
         false => (A_PAIR, "more change nothing"),

@@ -56,11 +56,9 @@ pub struct Friction {
     pub coefficient: f64,
 }
 
-impl Friction {
-    /// Whether it gives way before the body lifts: below b/h.
-    pub fn slides(&self, body: &Body<f64>) -> bool {
-        self.coefficient * body.height < body.half_width
-    }
+/// Whether friction gives way before the body lifts: below b/h.
+pub fn slides(friction: &Friction, body: &Body<f64>) -> bool {
+    friction.coefficient * body.height < body.half_width
 }
 
 /// Everything besides the rigid body; by default nothing.
