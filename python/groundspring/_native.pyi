@@ -515,6 +515,10 @@ class Tuned:
     def parameters(self) -> dict[str, Any]:
         """All of `parameters.json` but the record; keys end in their units."""
     @property
+    def program(self) -> dict[str, Any] | None:
+        """Springs for a program with steps of one size, what it is to be set to, and what they err there, as in
+        `parameters.json`; None where there are none."""
+    @property
     def lines(self) -> list[str]:
         """What is to be said of the run."""
     def save(self, folder: _Path, figures: bool = True) -> list[str]:
@@ -543,6 +547,10 @@ def tune(
     friction: float = 0.5,
     front: bool = False,
     vertical: Record | None = None,
+    program: Literal["sap2000", "etabs", "opensees-even"] | None = None,
+    step: float | None = None,
+    integrator: str | None = None,
+    substeps: int | None = None,
 ) -> Tuned:
     """Tune the springs of a rigid structure; for columns that give see `groundspring.opensees.springs_for`.
 
@@ -551,14 +559,20 @@ def tune(
     method          "landing": by the geometry; "arr": the paper's procedure, on the record
     scale           factor on the record
     duration        of the record, s; all of it unless given
-    max_hz          stiffest springs, Omega_n/2 pi, Hz; not for programs with steps of one size, whose springs
-                    `tune run --for` finds
+    max_hz          stiffest springs, Omega_n/2 pi, Hz; not for programs with steps of one size
     max_settlement  of the standing body, m
     friction        coefficient of the ground, without unit, for the warning of sliding
     front           error against stiffness, too
     vertical        ground acceleration at the record's times, positive upwards, if not that of the record
+    program         program with steps of one size that springs are wanted for besides: "sap2000", "etabs" or
+                    "opensees-even"; SAP2000 unless given
+    step            its time step, s; 0.001 unless given
+    integrator      its integrator: "hht:ALPHA" (0 to -1/2), "newmark:GAMMA:BETA", "generalized-alpha:RHO", "trbdf2"
+                    or "backward-euler"; alone, any program that has it
+    substeps        a step that fails is halved, down to one in so many; 16 unless given
 
-    ValueError: no springs settle as little as asked for; a number out of its range.
+    ValueError: no springs settle as little as asked for; a number out of its range; an integrator that the program
+    does not have.
     """
 
 @final

@@ -82,12 +82,18 @@ def tuned(
     friction: float,
     front: bool,
     vertical: Record | None,
+    # not in pickles of earlier versions
+    program: Any = None,
+    step: float | None = None,
+    integrator: str | None = None,
+    substeps: int | None = None,
 ) -> Tuned:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return tune(
             of, shaken, accuracy, method, scale=scale, duration=duration, max_hz=max_hz, max_settlement=max_settlement,
-            friction=friction, front=front, vertical=vertical,
+            friction=friction, front=front, vertical=vertical, program=program, step=step, integrator=integrator,
+            substeps=substeps,
         )  # fmt: skip
 
 

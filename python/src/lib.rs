@@ -6,7 +6,7 @@
 //! | `record`, `structure`, `springs` | what goes in; each object holds one of the crate's |
 //! | `rocking`, `filed` | Housner's solution, one history or many; as it is pickled |
 //! | `simulation` | both models on given springs |
-//! | `tuned` | the whole of `tune run` |
+//! | `tuned`, `program` | the whole of `tune run`; the program with fixed steps that it is asked for |
 //! | `design`, `validation` | the design without units, the frequency response; springs judged over many records |
 //! | `many`, `arrow` | many histories as one table; a table for whoever reads Arrow |
 //! | `numbers` | rows of numbers from Python, checked |
@@ -21,6 +21,7 @@ mod design;
 mod filed;
 mod many;
 mod numbers;
+mod program;
 mod record;
 mod rocking;
 mod said;

@@ -11,6 +11,7 @@ use strong_motion::excitation::of_record;
 
 use crate::{
     numbers::seconds,
+    program::ProgramArguments,
     record::Record,
     said::{one_line, plain, shown, value_error, value_error_of, warn_of},
     simulation::Simulation,
@@ -21,9 +22,13 @@ use crate::{
 
 /// What the program finds, a line each.
 fn lines(run: &RigidRun) -> Vec<String> {
-    let accuracy = run.said(run.parameters.clone()).accuracy;
-    let accuracy = accuracy.map(|accuracy| format!("accuracy: {}", accuracy.sentence()));
-    run.parameters.findings.iter().map(|finding| finding.line()).chain(accuracy).collect()
+    let said = run.said(run.parameters.clone());
+    let accuracy = said.accuracy.map(|accuracy| format!("accuracy: {}", accuracy.sentence()));
+    let program = said
+        .program
+        .map(|row| format!("springs for {}, steps of {}: {}", row.program, row.steps, row.errors));
+    let findings = run.parameters.findings.iter().map(|finding| finding.line());
+    findings.chain(accuracy).chain(program).collect()
 }
 
 /// Springs of a rigid structure, and all that is found of them.
@@ -78,6 +83,13 @@ impl Tuned {
     #[getter]
     fn parameters(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         plain(py, &self.run.parameters)
+    }
+
+    /// Springs for a program with steps of one size, what it is to be set to, and what they err
+    /// there, as in `parameters.json`; None where there are none.
+    #[getter]
+    fn program(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        plain(py, &self.run.parameters.program)
     }
 
     /// What is to be said of the run.
@@ -141,6 +153,29 @@ impl Tuned {
     }
 }
 
+/// A run of a case, and its histories.
+fn run(
+    py: Python<'_>,
+    case: Case,
+    structure: Structure,
+    friction: f64,
+    front: bool,
+) -> PyResult<(Arc<RigidRun>, Simulation)> {
+    interruptible(py, |stop| {
+        let job = Job::new(&case, &|_, _, _| stop.check()).map_err(value_error)?;
+        let points = if front {
+            report::stiffness_tradeoff::front(&job, &|_, _| stop.check())
+        } else {
+            Vec::new()
+        };
+        stop.check();
+        let run = RigidRun::new(case, job, points, friction);
+        let run = Arc::new(run);
+        let simulation = Simulation::of(structure, run.clone());
+        Ok::<_, PyErr>((run, simulation))
+    })?
+}
+
 /// Tune the springs of a rigid structure; for columns that give see
 /// `groundspring.opensees.springs_for`.
 ///
@@ -150,19 +185,27 @@ impl Tuned {
 /// method          "landing": by the geometry; "arr": the paper's procedure, on the record
 /// scale           factor on the record
 /// duration        of the record, s; all of it unless given
-/// max_hz          stiffest springs, Omega_n/2 pi, Hz; not for programs with steps of one size,
-///                 whose springs `tune run --for` finds
+/// max_hz          stiffest springs, Omega_n/2 pi, Hz; not for programs with steps of one size
 /// max_settlement  of the standing body, m
 /// friction        coefficient of the ground, without unit, for the warning of sliding
 /// front           error against stiffness, too
 /// vertical        ground acceleration at the record's times, positive upwards, if not that of
 ///                 the record
+/// program         program with steps of one size that springs are wanted for besides:
+///                 "sap2000", "etabs" or "opensees-even"; SAP2000 unless given
+/// step            its time step, s; 0.001 unless given
+/// integrator      its integrator: "hht:ALPHA" (0 to -1/2), "newmark:GAMMA:BETA",
+///                 "generalized-alpha:RHO", "trbdf2" or "backward-euler"; alone, any program that
+///                 has it
+/// substeps        a step that fails is halved, down to one in so many; 16 unless given
 ///
-/// ValueError: no springs settle as little as asked for; a number out of its range.
+/// ValueError: no springs settle as little as asked for; a number out of its range; an integrator
+/// that the program does not have.
 #[pyfunction]
 #[pyo3(signature = (structure, record = None, accuracy = 0.002, method = "landing", *,
     scale = 1.0, duration = None, max_hz = None, max_settlement = 0.01, friction = 0.5,
-    front = false, vertical = None))]
+    front = false, vertical = None, program = None, step = None, integrator = None,
+    substeps = None))]
 #[allow(clippy::too_many_arguments)]
 pub fn tune(
     py: Python<'_>,
@@ -177,6 +220,10 @@ pub fn tune(
     friction: f64,
     front: bool,
     vertical: Option<&Record>,
+    program: Option<String>,
+    step: Option<f64>,
+    integrator: Option<String>,
+    substeps: Option<usize>,
 ) -> PyResult<Tuned> {
     let objective = match method {
         "landing" => Objective::Landing,
@@ -188,6 +235,7 @@ pub fn tune(
         }
     };
     let duration = seconds(duration)?;
+    let asked = ProgramArguments { program, step, integrator, substeps };
     let inputs = PyTuple::new(
         py,
         [
@@ -202,6 +250,10 @@ pub fn tune(
             friction.into_bound_py_any(py)?,
             front.into_bound_py_any(py)?,
             vertical.cloned().into_bound_py_any(py)?,
+            asked.program.as_deref().into_bound_py_any(py)?,
+            asked.step.into_bound_py_any(py)?,
+            asked.integrator.as_deref().into_bound_py_any(py)?,
+            asked.substeps.into_bound_py_any(py)?,
         ],
     )?;
     let record = record
@@ -218,19 +270,8 @@ pub fn tune(
     let excitation = of_record(record, scale, duration);
     let case = Case::new("tune", (structure.core, structure.e), excitation, tuning)
         .map_err(value_error)?;
-    let (run, simulation) = interruptible(py, |stop| {
-        let job = Job::new(&case, &|_, _, _| stop.check()).map_err(value_error)?;
-        let points = if front {
-            report::stiffness_tradeoff::front(&job, &|_, _| stop.check())
-        } else {
-            Vec::new()
-        };
-        stop.check();
-        let run = RigidRun::new(case, job, points, friction);
-        let run = Arc::new(run);
-        let simulation = Simulation::of(structure, run.clone());
-        Ok::<_, PyErr>((run, simulation))
-    })??;
+    let case = asked.of(case)?;
+    let (run, simulation) = run(py, case, structure, friction, front)?;
     warn_of(py, &run.parameters.findings)?;
     let inputs = inputs.unbind();
     Ok(Tuned {
