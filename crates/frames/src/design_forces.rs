@@ -10,7 +10,9 @@
 //! A landing stops a footing at once. The wave that this sends up a column with a mass of its own
 //! is sharper the finer the mesh and the stiffer the springs: its peak is theirs, its part below a
 //! frequency is the structure's. A column without mass has no waves: its forces are given as they
-//! are; those of the ground, impulses of landings in them, below 20 Hz.
+//! are. The ground's impulse that stops a footing has no largest force of the structure's: forces
+//! of the ground are given between landings, what the columns bring and, of the footings' weight
+//! and inertia, the median over 0.02 s.
 //!
 //! Springs at Omega_n/4 have k1/16, k2/16, c/4 and the same m2: their landing is the same, four
 //! times as slow.
@@ -27,8 +29,12 @@ pub use cutoff::Cutoff;
 pub use name::ForceName;
 
 use super::{
-    assembled::Assembled, fem::ElasticHistory, frame::EquilibriumError, peaks::StructurePeaks,
-    rigid::RigidForces, structure::ElasticStructure,
+    assembled::Assembled,
+    fem::{ElasticHistory, LANDING_OVER},
+    frame::EquilibriumError,
+    peaks::StructurePeaks,
+    rigid::RigidForces,
+    structure::ElasticStructure,
 };
 use check::{ForcePeaks, Variants};
 use dynamics::{
@@ -37,6 +43,9 @@ use dynamics::{
 };
 use rocking::motion::TimedPeak;
 use strong_motion::Record;
+
+/// Parts of the time over which the median is taken.
+const PARTS_A_LANDING: f64 = 13.0;
 
 /// A force, and by how much it changes with what is not the structure's; changes are shares of it,
 /// measured over `over_s`.
@@ -130,13 +139,12 @@ impl StructureForces {
         let cutoff = Cutoff::of(&assembled.structure);
         let of =
             |history: &ElasticHistory, over: f64| ForcePeaks::of(history, cutoff.as_ref(), over);
-        let twice = cutoff.as_ref().map(Cutoff::doubled);
         let variants = checked.then(|| Variants::of(assembled, springs, record)).transpose()?;
         let held = of(fixed, f64::INFINITY);
         // all forces of all motions over the same time
         let over = |seconds: f64| -> Vec<StructureForce> {
             let peaks = of(fem, seconds);
-            let faster = twice.as_ref().map(|twice| ForcePeaks::of(fem, Some(twice), seconds));
+            let faster = ForcePeaks::below(2.0, fem, cutoff.as_ref(), seconds);
             let peaks_of = |pick: fn(&Variants) -> Option<&ElasticHistory>| {
                 variants.as_ref().and_then(pick).map(|history| of(history, seconds))
             };
@@ -156,9 +164,10 @@ impl StructureForces {
                         .map(|finer| value(finer, kind).unwrap_or(f64::INFINITY)),
                     softer: softer.as_ref().and_then(|softer| value(softer, kind)),
                     stiffer: stiffer.as_ref().and_then(|stiffer| value(stiffer, kind)),
-                    doubled_cutoff: faster.as_ref().and_then(|faster| value(faster, kind)),
+                    doubled_cutoff: peak.cutoff_hz.and_then(|_| value(&faster, kind)),
                 };
                 let holds = others.change() < MOST_CHANGE;
+                let of_soles = [ForceName::SoleShear, ForceName::SoleVertical].contains(&kind);
                 Some(StructureForce {
                     kind,
                     value: holds.then_some(found),
@@ -172,7 +181,8 @@ impl StructureForces {
                     over_s: seconds,
                     whole_record: None,
                     held: None,
-                    fixed: held.get(kind).map(|peak| peak.filtered),
+                    // what is held has no soles
+                    fixed: held.get(kind).filter(|_| !of_soles).map(|peak| peak.filtered),
                     rigid: rigid.and_then(|rigid| rigid_peak(rigid, kind, record.dt)),
                 })
             };
@@ -240,8 +250,8 @@ pub(crate) fn parts(structure: &ElasticStructure, dt: f64) -> usize {
 }
 
 fn parts_below(cutoff: Option<&Cutoff>, dt: f64) -> usize {
-    let fastest = cutoff.map_or(cutoff::SOLE_HZ, |cutoff| cutoff.cutoff_hz.max(cutoff::SOLE_HZ));
-    (dt * fastest * cutoff::PARTS_A_PERIOD).ceil().max(1.0) as usize
+    let of_waves = cutoff.map_or(0.0, |cutoff| dt * cutoff.cutoff_hz * cutoff::PARTS_A_PERIOD);
+    of_waves.max(dt / LANDING_OVER * PARTS_A_LANDING).ceil().max(1.0) as usize
 }
 
 /// The rigid body's: its shear across the column is its moment over the column's length.

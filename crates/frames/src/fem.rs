@@ -34,6 +34,7 @@ pub use filter::{low_pass, resolves};
 pub use history::{ContactChange, ElasticHistory, GroundForces};
 pub use model::CornerState;
 pub use running_peaks::{RunningPeaks, StepForces};
+pub(crate) use series::LANDING_OVER;
 pub use series::{FineColumn, FineForces, FineSeries};
 
 use super::{

@@ -165,6 +165,14 @@ impl Frame {
         beam.bearing(&gather(index, q), &gather(index, v))
     }
 
+    /// What one end of beam i presses its node with, horizontally and vertically (N): upwards what
+    /// the node needs to hold it.
+    pub(crate) fn held_at(&self, i: usize, end: usize, q: &[f64], v: &[f64]) -> [f64; 2] {
+        let BeamElement { beam, index, .. } = &self.elements[i];
+        let needed = beam.resistance(&gather(index, q), &gather(index, v));
+        [needed[3 * end], needed[3 * end + 1]]
+    }
+
     /// What beam i's shear lacks of that of one of its ends (N): `Beam::half_inertia`.
     pub(crate) fn half_inertia(
         &self,

@@ -7,6 +7,11 @@ use super::{FiledParameters, Run, Section, Table, peak_table, sentence};
 use files::message::{percent, quantity, significant};
 use results::{DesignForce, ForceName, OtherForces};
 
+/// What forces of the ground are.
+const OF_SOLES: &str = "those of the ground between landings: what the columns bring and the \
+    weight and inertia of the footings. The impulse that stops a landing footing is not among \
+    them: on rigid ground it has no largest force.";
+
 /// What the mark "not predictable" of a force means.
 const ONE_OF_MANY: &str = " Not predictable: the motion up to that time is one of many alike, \
                            and no model tells which: design by many motions.";
@@ -135,11 +140,9 @@ pub fn forces_to_design_with(run: &Run) -> Option<Section> {
         "fixed to the ground",
     ];
     let below = match forces.below_hz {
-        Some(hz) => format!("Largest of what is slower than {} Hz.", significant(hz, 3)),
+        Some(hz) => format!("Largest of what is slower than {} Hz; {OF_SOLES}", significant(hz, 3)),
         None if matches!(run.parameters, FiledParameters::Elastic(_)) => {
-            "A column without mass has no waves: its forces are as they are, those of the ground \
-                below 20 Hz."
-                .into()
+            format!("A column without mass has no waves: its forces are as they are; {OF_SOLES}")
         }
         None => "Largest between impacts: an impact's impulse is not among them.".into(),
     };

@@ -152,11 +152,11 @@ pub struct DesignForces {
     /// Moment of a leg at the apex of an A-frame.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub apex_moment_nm: Option<DesignForce>,
-    /// Shear at the sole, footing included; of a rigid body what the soles bear, without the
-    /// tendon's pull at its anchor.
+    /// Shear at all soles together, footings included, between landings; of a rigid body what the
+    /// soles bear, without the tendon's pull at its anchor.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sole_shear_n: Option<DesignForce>,
-    /// Vertical force at the sole, footing included, upwards.
+    /// Vertical force at all soles together, footings included, upwards, between landings.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sole_vertical_n: Option<DesignForce>,
     /// Vertical force of the ground on one corner of a rigid body.

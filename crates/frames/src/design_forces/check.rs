@@ -1,6 +1,6 @@
 //! The same motion with the elements doubled and on other springs, and peaks of forces.
 
-use super::{Cutoff, ForceName, cutoff::SOLE_HZ, parts};
+use super::{Cutoff, ForceName, parts};
 use crate::{
     assembled::Assembled,
     design_forces::ForcesTogether,
@@ -100,8 +100,18 @@ pub(super) struct ForcePeaks(Vec<PeakOfForce>);
 impl ForcePeaks {
     /// Of a history, up to a time (s), below the cutoff.
     pub(crate) fn of(history: &ElasticHistory, cutoff: Option<&Cutoff>, over: f64) -> Self {
+        Self::below(1.0, history, cutoff, over)
+    }
+
+    /// The same below so many times the frequencies.
+    pub(crate) fn below(
+        times: f64,
+        history: &ElasticHistory,
+        cutoff: Option<&Cutoff>,
+        over: f64,
+    ) -> Self {
         let Some(fine) = &history.fine else { return Self(Vec::new()) };
-        let of_columns = cutoff.map(|cutoff| cutoff.cutoff_hz);
+        let of_columns = cutoff.map(|cutoff| times * cutoff.cutoff_hz);
         let series = Series { part_s: fine.part_s, over_s: over };
         let mut out: Vec<PeakOfForce> = Vec::new();
         for column in &fine.columns {
@@ -111,9 +121,24 @@ impl ForcePeaks {
             };
             peaks.into_iter().for_each(|peak| keep_larger(&mut out, peak));
         }
-        let of_soles = of_columns.unwrap_or(SOLE_HZ);
-        for (sole, kind) in fine.sole.iter().zip([ForceName::SoleShear, ForceName::SoleVertical]) {
-            out.extend(series.peak(kind, sole, &series.smooth(sole, of_soles), of_soles));
+        for (k, kind) in [ForceName::SoleShear, ForceName::SoleVertical].into_iter().enumerate() {
+            let rest = fine.rest_between_landings(k);
+            let filtered = match of_columns {
+                Some(cutoff_hz) => {
+                    let held = series.smooth(&fine.held[k], cutoff_hz);
+                    let all: Vec<f64> = held.iter().zip(&rest).map(|(a, b)| a + b).collect();
+                    series.largest(&all)
+                }
+                None => series.with_rest(&fine.held_at_steps, k, &rest),
+            };
+            out.extend(filtered.map(|filtered| PeakOfForce {
+                kind,
+                filtered,
+                raw: fine.sole[k].largest,
+                cutoff_hz: of_columns,
+                together: None,
+                above_base_m: None,
+            }));
         }
         for (k, kind) in [ForceName::Tendon, ForceName::Damper].into_iter().enumerate() {
             let most = |until: f64| fine.members.largest(k, until);
@@ -153,6 +178,19 @@ impl Series {
         let kept = (self.over_s / self.part_s).round().min(1e15) as usize;
         let peak = TimedPeak::of(self.part_s, &smooth[..kept.min(smooth.len())])?;
         Some(TimedPeak { value: peak.value, time: peak.time + 0.5 * self.part_s })
+    }
+
+    /// The largest of forces at the ends of steps, each with the rest of that time.
+    fn with_rest(&self, steps: &[StepForces<2>], k: usize, rest: &[f64]) -> Option<TimedPeak> {
+        let last = rest.len().checked_sub(1)?;
+        let all = steps.iter().take_while(|step| step.time <= self.over_s).map(|step| {
+            // between the middles of two parts
+            let place = (step.time / self.part_s - 0.5).clamp(0.0, last as f64);
+            let (i, share) = (place as usize, place.fract());
+            let between = rest[i] + share * (rest[(i + 1).min(last)] - rest[i]);
+            TimedPeak { value: step.forces[k] + between, time: step.time }
+        });
+        all.reduce(|a, b| if b.value.abs() > a.value.abs() { b } else { a })
     }
 
     /// Of one force, whose series below its cutoff is `smooth`.

@@ -12,8 +12,6 @@ const ELEMENTS: usize = 32;
 /// Parts to a period of the cutoff over which forces are averaged: a mean then loses (pi/16)^2/6 =
 /// 0.6 % of what is at the cutoff.
 pub(crate) const PARTS_A_PERIOD: f64 = 16.0;
-/// For the ground's forces under columns without waves (Hz).
-pub(crate) const SOLE_HZ: f64 = 20.0;
 
 /// Frequency below which a column's forces are given, and what it keeps.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,11 +30,6 @@ impl Cutoff {
         let modes_hz: Vec<f64> = modes.into_iter().take(MODES).collect();
         let last = *modes_hz.last()?;
         Some(Self { cutoff_hz: ABOVE_THIRD * last, modes_hz })
-    }
-
-    /// Twice as high.
-    pub(super) fn doubled(&self) -> Self {
-        Self { cutoff_hz: 2.0 * self.cutoff_hz, modes_hz: self.modes_hz.clone() }
     }
 }
 

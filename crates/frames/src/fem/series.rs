@@ -22,6 +22,9 @@ use rocking::scalar::GRAVITY;
 /// (tension positive), moment.
 const BASE_FORCES: usize = 3;
 
+/// A landing is over in half of it (s).
+pub(crate) const LANDING_OVER: f64 = 0.02;
+
 /// One force.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FineSeries {
@@ -79,12 +82,25 @@ pub struct FineForces {
     pub columns: Vec<FineColumn>,
     /// Of the ground on all corners together, horizontally and vertically (N).
     pub sole: [FineSeries; 2],
+    /// What footings hold of columns, all together, in the same directions (N).
+    pub held: [FineSeries; 2],
+    /// The same at the ends of steps.
+    pub held_at_steps: Vec<StepForces<2>>,
     /// At the ends of steps: of the tendon that pulls most, of the damper with the largest force
     /// on the structure, upwards (N).
     pub members: RunningPeaks<2>,
 }
 
 impl FineForces {
+    /// What the ground's force has besides what footings hold of columns, between landings (N):
+    /// weight and inertia of the footings. The impulse of a landing is in few of its parts, and the
+    /// median over [`LANDING_OVER`] does not see it.
+    pub(crate) fn rest_between_landings(&self, direction: usize) -> Vec<f64> {
+        let [sole, held] = [&self.sole, &self.held].map(|of| &of[direction].means);
+        let rest: Vec<f64> = sole.iter().zip(held).map(|(sole, held)| sole - held).collect();
+        running_median(&rest, (0.5 * LANDING_OVER / self.part_s).round() as usize)
+    }
+
     /// The ground's vertical force below a frequency (Hz), at times dt (s) apart, so many.
     pub fn sole_vertical_below(&self, hz: f64, dt: f64, samples: usize) -> Vec<f64> {
         let smooth = low_pass(&self.sole[1].means, self.part_s, hz);
@@ -100,11 +116,12 @@ impl FineForces {
 
     /// All series, columns first.
     pub(crate) fn series(&self) -> impl Iterator<Item = &FineSeries> {
-        self.columns.iter().flat_map(FineColumn::series).chain(&self.sole)
+        self.columns.iter().flat_map(FineColumn::series).chain(&self.sole).chain(&self.held)
     }
 
     fn series_mut(&mut self) -> impl Iterator<Item = &mut FineSeries> {
-        self.columns.iter_mut().flat_map(FineColumn::series_mut).chain(&mut self.sole)
+        let columns = self.columns.iter_mut().flat_map(FineColumn::series_mut);
+        columns.chain(&mut self.sole).chain(&mut self.held)
     }
 }
 
@@ -150,6 +167,8 @@ impl FineRecorder {
             part_s: dt / parts as f64,
             columns: fine,
             sole: [series(), series()],
+            held: [series(), series()],
+            held_at_steps: Vec::new(),
             members: RunningPeaks::default(),
         };
         let count = forces.series().count();
@@ -171,6 +190,12 @@ impl FineRecorder {
             sole = [sole[0] + force[0], sole[1] + force[1]];
         }
         out.extend(sole);
+        let mut held = [0.0; 2];
+        for column in &self.columns {
+            let [across, up] = frame.held_at(column.beams[0], column.base_end, free[0], free[1]);
+            held = [held[0] + across, held[1] + up];
+        }
+        out.extend(held);
         out
     }
 
@@ -206,6 +231,9 @@ impl FineRecorder {
             }
             place += all.len();
         }
+        if let [.., across, up] = *end {
+            self.forces.held_at_steps.push(StepForces { time: view.time, forces: [across, up] });
+        }
         let model = view.model;
         let (q, v) = (&view.q[..model.n], &view.v[..model.n]);
         let larger = |a: f64, b: f64| if b.abs() > a.abs() { b } else { a };
@@ -239,6 +267,18 @@ impl FineRecorder {
         self.forces.series_mut().for_each(|series| series.means.truncate(kept));
         self.forces
     }
+}
+
+/// The median of every value and so many on either side of it; of those there are at the ends.
+fn running_median(series: &[f64], beside: usize) -> Vec<f64> {
+    let mut window = Vec::with_capacity(2 * beside + 1);
+    let median = |i: usize| {
+        window.clear();
+        let beside = beside.min(i).min(series.len() - 1 - i);
+        window.extend_from_slice(&series[i - beside..=i + beside]);
+        *window.select_nth_unstable_by(beside, f64::total_cmp).1
+    };
+    (0..series.len()).map(median).collect()
 }
 
 /// A column's forces, in the order of its series.
@@ -304,6 +344,23 @@ fn antiderivative(c: &[f64; 4], s: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A median leaves a straight line and a bend as they are, and takes out what is in fewer parts
+    /// than half of its window, however large.
+    #[test]
+    fn a_running_median_does_not_see_an_impulse() {
+        let smooth = |i: usize| 5.0 + 0.1 * i as f64;
+        let clean: Vec<f64> = (0..40).map(smooth).collect();
+        assert_eq!(running_median(&clean, 6), clean);
+        let mut struck = clean.clone();
+        for i in 20..25 {
+            struck[i] = 1e9;
+        }
+        // the middle moves by no more than half a window of the line
+        for (found, due) in running_median(&struck, 6).iter().zip(&clean) {
+            assert!((found - due).abs() <= 0.6, "{found} {due}");
+        }
+    }
 
     /// x^3 - 2 x^2 + 3 x + 4: its integral to s is s^4/4 - 2 s^3/3 + 3 s^2/2 + 4 s.
     #[test]

@@ -22,8 +22,8 @@ enum Told {
     Value,
 }
 
-/// What landings are on, where there is room for it.
-const GROUND: &str = " on rigid ground";
+/// What forces of the ground are, where there is room for it.
+const AT_SOLES: &str = ", at soles between landings";
 /// Blanks before a cell, and between two.
 const INDENT: usize = 2;
 
@@ -50,9 +50,8 @@ pub(super) fn lines(run: &Run, tight: bool) -> Vec<String> {
     let notes = if notes.is_empty() { String::new() } else { format!(" ({})", notes.join("; ")) };
     let head = format!("design forces{}{notes}", which(run, forces));
     // what goes first where it is too long
-    let head = [GROUND, ", landings included"].into_iter().fold(head, |head, part| {
-        if head.chars().count() > WIDTH { head.replace(part, "") } else { head }
-    });
+    let long = head.chars().count() > WIDTH;
+    let head = if long { head.replace(AT_SOLES, "") } else { head };
     let mut lines = wrapped("", &head);
     let mut all: Vec<_> = forces.all().filter(|(name, _)| !in_the_report(*name)).collect();
     all.sort_by(|a, b| order(*a).total_cmp(&order(*b)));
@@ -109,10 +108,8 @@ fn in_the_report(name: ForceName) -> bool {
 fn which(run: &Run, forces: &DesignForces) -> String {
     match (&run.parameters, forces.below_hz) {
         (FiledParameters::Rigid(_), _) => " between impacts".into(),
-        (_, Some(hz)) => {
-            format!(" below {} Hz, landings{GROUND} included", significant(hz, 3))
-        }
-        (_, None) => format!(", at soles below 20 Hz, landings{GROUND} included"),
+        (_, Some(hz)) => format!(" below {} Hz{AT_SOLES}", significant(hz, 3)),
+        (_, None) => AT_SOLES.into(),
     }
 }
 

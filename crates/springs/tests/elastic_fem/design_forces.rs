@@ -218,6 +218,12 @@ fn a_landing_gives_the_column_the_axial_force_of_a_mass_that_is_stopped_by_its_s
         "{value:e}, by hand {expected:e} at {} s",
         axial.time_s
     );
+    // the ground bears that and the footing at rest: the impulse that stopped it is not in it
+    let sole = design.get(ForceName::SoleVertical).unwrap();
+    let found = sole.value.unwrap_or_else(|| panic!("withheld: {sole:?}"));
+    let due = value.abs() + STIFF.footing_mass_kg * GRAVITY;
+    assert!((found / due - 1.0).abs() < 5e-3, "{found:e}, {due:e}");
+    assert!(sole.raw > 5.0 * due && sole.cutoff_hz.is_none(), "{sole:?}");
 }
 
 /// Springs chosen by peaks on the suite's own motions hold what was asked for on others, beside
