@@ -244,6 +244,19 @@ fn of_a_record_without_a_motion_no_landing_and_no_error_is_said() {
     assert!(!said.contains("on this record"), "{said}");
 }
 
+/// Below uplift the rotation that rigid ground allows is none, and nothing is relative to it.
+#[test]
+fn a_record_that_does_not_lift_a_pier_has_no_error_of_its_rotation() {
+    let weak = |i: i32| format!("{}\n", 0.01 * f64::from(i).sin());
+    let weak = "# dt = 0.01\n".to_string() + &(0..200).map(weak).collect::<String>();
+    let folder = TestFolder::with(&[("pier.toml", PIER), ("weak.txt", &weak)]);
+    let said = run_coarsely(&folder, "weak.txt");
+    assert!(said.contains("The record does not lift the structure"), "{said}");
+    let program = folder.json("out/parameters.json")["program"].clone();
+    assert!(program["on_record"]["top"].is_number(), "{program}");
+    assert!(program["on_record"]["nrmse"].is_null(), "{program}");
+}
+
 /// A portal with all that takes lines: a vertical motion, doubts, forces, a search that was cut.
 #[test]
 fn a_crowded_screen_has_thirty_lines_at_most() {

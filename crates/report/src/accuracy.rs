@@ -93,6 +93,9 @@ pub struct AccuracyOn {
     pub history_allowed: Option<f64>,
     /// Error of peaks allowed there.
     pub peaks_allowed: Option<f64>,
+    /// What misses what was asked there besides these two, and what is allowed of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub missed: Option<String>,
 }
 
 /// What was asked for and what was measured.
@@ -134,6 +137,7 @@ impl AccuracyReport {
             worst,
             history_allowed: of_history.map(|x| looser * x),
             peaks_allowed: of_peaks.map(|x| looser * x),
+            missed: None,
         };
         let statistics = |of: fn(&Accuracy) -> Option<Statistic>,
                           words: fn(usize) -> String,
@@ -166,6 +170,7 @@ impl AccuracyReport {
                 worst: Some(worst),
                 history_allowed: of_history,
                 peaks_allowed: of_peaks,
+                missed: None,
             }
         });
         let within = |found: Option<f64>, allowed: Option<f64>| {
@@ -185,8 +190,9 @@ impl AccuracyReport {
         let on = |row: &AccuracyOn| {
             let peaks = row.peaks.map(|peaks| format!("peaks within {}", within(peaks, row.worst)));
             let history = row.history.map(|nrmse| format!("history {}", significant(nrmse, 2)));
-            let both: Vec<String> = peaks.into_iter().chain(history).collect();
-            format!("on {}: {}", row.on, both.join(", "))
+            let all: Vec<String> =
+                peaks.into_iter().chain(history).chain(row.missed.clone()).collect();
+            format!("on {}: {}", row.on, all.join(", "))
         };
         let reached = if self.reached { "reached" } else { "NOT reached" };
         let measured: Vec<String> = self.measured().map(on).collect();
@@ -204,8 +210,9 @@ impl AccuracyReport {
             let [peaks, nrmse] = if i == 0 { ["peaks within ", "NRMSE "] } else { [""; 2] };
             let peaks = row.peaks.map(|error| format!("{peaks}{}", within(error, row.worst)));
             let history = row.history.map(|error| format!("{nrmse}{}", significant(error, 2)));
-            let both: Vec<String> = peaks.into_iter().chain(history).collect();
-            format!("{}: {}", row.on, both.join(", "))
+            let all: Vec<String> =
+                peaks.into_iter().chain(history).chain(row.missed.clone()).collect();
+            format!("{}: {}", row.on, all.join(", "))
         };
         let measured: Vec<String> = self.measured().take(sets).enumerate().map(on).collect();
         if measured.is_empty() {
@@ -227,13 +234,16 @@ impl AccuracyReport {
             allowed.zip(found).is_some_and(|(allowed, found)| found > allowed)
         };
         let misses = |row: &&AccuracyOn| {
-            over(row.history, row.history_allowed) || over(row.peaks, row.peaks_allowed)
+            over(row.history, row.history_allowed)
+                || over(row.peaks, row.peaks_allowed)
+                || row.missed.is_some()
         };
         if self.reached || self.measured().take(sets).any(|row| misses(&row)) {
             return None;
         }
         let row = self.measured().find(misses)?;
         let found = match (row.history, row.peaks) {
+            _ if row.missed.is_some() => row.missed.clone()?,
             (Some(nrmse), _) if self.history_asked.is_some() => {
                 format!("NRMSE {}", significant(nrmse, 2))
             }
@@ -297,15 +307,20 @@ impl AccuracyReport {
                 cell(row.history_allowed, |x| significant(x, 2)),
             ]
         });
-        Table::new([
+        let head = [
             "measured on",
             "motions",
             "error of peaks",
             "allowed",
             "NRMSE of the history",
             "allowed",
-        ])
-        .with(rows)
+        ];
+        if self.measured.iter().all(|row| row.missed.is_none()) {
+            return Table::new(head).with(rows);
+        }
+        let missed = self.measured.iter().map(|row| row.missed.clone().unwrap_or("-".into()));
+        let rows = rows.zip(missed).map(|(row, missed)| [row, vec![missed]].concat());
+        Table::new(head.into_iter().chain(["missed besides"])).with(rows)
     }
 }
 
@@ -329,6 +344,7 @@ mod tests {
             worst: Some("uplift"),
             history_allowed: Some(0.002),
             peaks_allowed: None,
+            missed: None,
         };
         let mut report = AccuracyReport {
             history_asked: Some(0.002),

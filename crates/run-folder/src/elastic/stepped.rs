@@ -70,7 +70,10 @@ impl ElasticRun {
         let sways = &self.answer.histories.sways;
         let reference: Vec<Sway> = sways.iter().map(|[reference, _]| reference.clone()).collect();
         let [rotations, _] = errors(&reference, &found, samples);
-        Some(on.with_history(rotations))
+        // of a structure that has not lifted the reference has no rotation to speak of
+        let lifts = self.answer.histories.reference.history.first_lift();
+        let rocks = lifts.is_some_and(|lifts| until.is_none_or(|until| lifts < until));
+        Some(if rocks { on.with_history(rotations) } else { on })
     }
 
     /// A deck for a program with fixed time steps.
