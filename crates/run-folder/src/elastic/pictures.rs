@@ -152,8 +152,9 @@ fn forces(run: &ElasticRun) -> Result<Figure, FigureError> {
         name: draw::BEARING,
         caption: "What the structure bears when it rocks, and held to the ground: of each force \
                   the column or leg in which it is largest, and the largest magnitude since the \
-                  sample before: a tension beside a larger compression is not drawn. Of forces that the table has filtered \
-                  or withholds, the spikes at landings are those of springs and mesh.",
+                  sample before: a tension beside a larger compression is not drawn. Of forces \
+                  that the table has filtered or withholds, the spikes at landings are those of \
+                  springs and mesh.",
         sheet,
     })
 }
