@@ -1,8 +1,7 @@
 //! Whether the numbers of a file of parameters can be.
 
-use super::{Parameters, ParametersError};
-use dynamics::spring::ChainRow;
-use rocking::{scalar::GRAVITY, structure::Structure};
+use super::{Parameters, ParametersError, RecordRow};
+use rocking::scalar::GRAVITY;
 
 /// Stiffness that a spring may have, in units of the weight over the height: softer ones let the
 /// body sink in by a thousand times its height, stiffer ones are compressed by less than the
@@ -12,19 +11,15 @@ const STIFFNESS: (f64, f64) = (1e-3, 1e15);
 const MASS: (f64, f64) = (1e-9, 1e9);
 /// Damping, in units of the mass times sqrt(g/height).
 const DAMPING: (f64, f64) = (0.0, 1e15);
+/// Keys of a unit's numbers.
+const NAMES: [&str; 4] = ["k1_n_per_m", "k2_n_per_m", "m2_kg", "c_ns_per_m"];
+/// The least that each may be.
+const LEAST: [f64; 4] = [f64::MIN_POSITIVE, f64::MIN_POSITIVE, f64::MIN_POSITIVE, 0.0];
 
 impl Parameters {
     /// The same, if every number can be.
     pub(super) fn checked(self, path: &str) -> Result<Self, ParametersError> {
-        if let Some(row) = &self.record
-            && let Some(value) = row.duration_s.filter(|d| *d <= 0.0)
-        {
-            return Err(ParametersError::Record {
-                path: path.to_string(),
-                name: "duration_s",
-                value,
-            });
-        }
+        self.record.iter().try_for_each(|row| row.check(path))?;
         self.structure
             .checked()
             .map_err(|source| ParametersError::Structure { path: path.to_string(), source })?;
@@ -36,16 +31,13 @@ impl Parameters {
         let program = program.flat_map(|p| {
             [("program.vertical", &p.units.vertical), ("program.horizontal", &p.units.horizontal)]
         });
+        let scale = UnitScale { mass: self.structure.mass_kg, height: self.structure.height_m };
         for (chain, row) in [("vertical", &self.vertical), ("horizontal", &self.horizontal)]
             .into_iter()
             .chain(program)
         {
-            for (name, value, least) in [
-                ("k1_n_per_m", row.k1_n_per_m, f64::MIN_POSITIVE),
-                ("k2_n_per_m", row.k2_n_per_m, f64::MIN_POSITIVE),
-                ("m2_kg", row.m2_kg, f64::MIN_POSITIVE),
-                ("c_ns_per_m", row.c_ns_per_m, 0.0),
-            ] {
+            let numbers = [row.k1_n_per_m, row.k2_n_per_m, row.m2_kg, row.c_ns_per_m];
+            for ((name, value), least) in NAMES.into_iter().zip(numbers).zip(LEAST) {
                 if !(value.is_finite() && value >= least) {
                     let bound =
                         if least > 0.0 { " greater than zero" } else { ", zero or greater" };
@@ -58,41 +50,61 @@ impl Parameters {
                     });
                 }
             }
-            self.meaningful(path, chain, row)?;
+            scale.check(path, chain, numbers)?;
         }
         let members = self.members().checked(&self.structure.body());
         members.map_err(|source| ParametersError::Members { path: path.to_string(), source })?;
         Ok(self)
     }
+}
 
-    /// Springs whose numbers, in units of the structure's own, are within what 16 digits can
-    /// follow.
-    fn meaningful(
+impl RecordRow {
+    /// That the length of the part used, if it is given, is one.
+    pub(super) fn check(&self, path: &str) -> Result<(), ParametersError> {
+        match self.duration_s.filter(|d| *d <= 0.0) {
+            Some(value) => {
+                let path = path.to_string();
+                Err(ParametersError::Record { path, name: "duration_s", value })
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+/// What numbers of spring-absorber units are measured by: a structure's mass (kg) and the height of
+/// its centre of mass (m).
+#[derive(Clone, Copy)]
+pub(super) struct UnitScale {
+    pub(super) mass: f64,
+    pub(super) height: f64,
+}
+
+impl UnitScale {
+    /// That k1, k2, m2, c of a unit, over the structure's own, are within what 16 digits can
+    /// follow; `chain` names the unit in messages.
+    pub(super) fn check(
         &self,
         path: &str,
-        chain: &'static str,
-        row: &ChainRow,
+        chain: &str,
+        numbers: [f64; 4],
     ) -> Result<(), ParametersError> {
-        let Structure { mass_kg, height_m, .. } = self.structure;
+        let Self { mass, height } = *self;
         // a spring that the weight compresses by the height
-        let k = mass_kg * GRAVITY / height_m;
-        let c = (k * mass_kg).sqrt();
-        for (name, value, unit, scale, (least, most)) in [
-            ("k1_n_per_m", row.k1_n_per_m, k, "the weight over the height", STIFFNESS),
-            ("k2_n_per_m", row.k2_n_per_m, k, "the weight over the height", STIFFNESS),
-            ("m2_kg", row.m2_kg, mass_kg, "the structure's mass", MASS),
-            ("c_ns_per_m", row.c_ns_per_m, c, "the mass times sqrt(g/height)", DAMPING),
-        ] {
+        let k = mass * GRAVITY / height;
+        let c = (k * mass).sqrt();
+        let scales = [
+            (k, "the weight over the height", STIFFNESS),
+            (k, "the weight over the height", STIFFNESS),
+            (mass, "the structure's mass", MASS),
+            (c, "the mass times sqrt(g/height)", DAMPING),
+        ];
+        for ((name, value), (unit, scale, (least, most))) in
+            NAMES.into_iter().zip(numbers).zip(scales)
+        {
             let times = value / unit;
             if !(least..=most).contains(&times) {
-                return Err(ParametersError::Absurd {
-                    path: path.to_string(),
-                    chain,
-                    name,
-                    value,
-                    times,
-                    scale,
-                });
+                let (path, chain) = (path.to_string(), chain.to_string());
+                return Err(ParametersError::Absurd { path, chain, name, value, times, scale });
             }
         }
         Ok(())

@@ -7,10 +7,9 @@ use serde::{Deserialize, Serialize};
 
 use super::corner::CornerRow;
 use super::program::{CornerUnits, ProgramRow};
-use super::{ParametersError, RecordRow, RememberedError, SCHEMA};
+use super::{ParametersError, RecordRow, RememberedError, SCHEMA, checks::UnitScale, file};
 use cases::Yardstick;
 use dynamics::spring::{Chain, Springs};
-use files::message::one_line;
 use frames::{
     assembled::{Assembled, AssemblyError},
     ensemble::Ensemble,
@@ -205,9 +204,7 @@ impl ElasticParameters {
     /// # Errors
     /// It cannot be read; what is wrong with it.
     pub fn read(path: &Path) -> Result<Option<Self>, ParametersError> {
-        let name = path.display().to_string();
-        let text = files::input::text(path)
-            .map_err(|source| ParametersError::Read { path: name.clone(), source })?;
+        let (name, text) = file::read(path)?;
         if Self::is(&text) { Self::parse(&name, &text).map(Some) } else { Ok(None) }
     }
 
@@ -216,11 +213,8 @@ impl ElasticParameters {
     /// # Errors
     /// What is wrong with it.
     pub fn parse(path: &str, text: &str) -> Result<Self, ParametersError> {
-        let parameters: Self = serde_json::from_str(text).map_err(|e| ParametersError::Parse {
-            path: path.into(),
-            line: e.line(),
-            message: one_line(e.to_string().split(" at line").next().unwrap_or_default()),
-        })?;
+        file::known(path, text)?;
+        let parameters: Self = file::parse(path, text)?;
         let value =
             |message: String| ParametersError::Parse { path: path.into(), line: 1, message };
         if !(FIRST..=SCHEMA).contains(&parameters.schema) {
@@ -231,6 +225,9 @@ impl ElasticParameters {
         }
         let structure = parameters.structure.checked().map_err(|e| value(e.to_string()))?;
         structure.bears(parameters.members()).map_err(|e| value(e.to_string()))?;
+        parameters.record.iter().try_for_each(|row| row.check(path))?;
+        let body = structure.body();
+        let scale = UnitScale { mass: body.mass, height: body.height };
         let corners = structure.layout().corners.len();
         parameters.program.iter().try_for_each(|row| row.check(path))?;
         let program = parameters.program.iter().map(|row| ("program.springs", &row.units.springs));
@@ -249,14 +246,20 @@ impl ElasticParameters {
                     i + 1
                 )));
             }
+            for (i, row) in rows.iter().enumerate() {
+                for (unit, numbers) in [("vertical", row.vertical), ("horizontal", row.horizontal)]
+                {
+                    let unit = format!("{key}, row {}: {unit}", i + 1);
+                    scale.check(path, &unit, numbers.numbers())?;
+                }
+            }
         }
         Ok(parameters)
     }
 
     /// As JSON.
     pub fn to_json(&self) -> String {
-        // numbers and strings always serialise
-        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+        file::to_json(self)
     }
 
     /// Under every corner.
@@ -350,7 +353,7 @@ mod tests {
         let text = parameters().to_json();
         for (from, to, said) in [
             ("\"k1_n_per_m\": 10000000000.0", "\"k1_n_per_m\": 0.0", "row 1"),
-            ("\"schema\": 4", "\"schema\": 9", "schema is 9"),
+            ("\"schema\": 4", "\"schema\": 1", "schema is 1"),
             ("\"x_m\"", "\"y_m\"", "y_m"),
             ("\"height_m\": 12.0", "\"height_m\": -12.0", "height_m"),
         ] {
@@ -360,6 +363,32 @@ mod tests {
                 .to_string();
             // the line is said once, in front
             assert!(error.contains(said) && error.matches("line ").count() == 1, "{error}");
+        }
+    }
+
+    /// As of a rigid body: a file of a newer program is told so whatever its keys, a record has a
+    /// length, and numbers are of a size that means something.
+    #[test]
+    fn a_file_is_checked_as_that_of_a_rigid_body_is() {
+        let newer = "\"schema\": 5,\n  \"new_key\": 1";
+        let record = "\"record\": {\"name\": \"r\", \"dt_s\": 0.01, \"samples\": 9, \
+                      \"pga_g\": 0.3, \"duration_s\": -1.0},\n  \"omega_n_hz\"";
+        let text = parameters().to_json();
+        for (from, to, message) in [
+            ("\"schema\": 4", newer, "its schema is 5, this program reads up to 4"),
+            ("\"omega_n_hz\"", record, "record.duration_s is -1.0"),
+            (
+                "\"k1_n_per_m\": 10000000000.0",
+                "\"k1_n_per_m\": 1e22",
+                "springs, row 1: vertical.k1_n_per_m is 1e22, 1.4e16 times the weight",
+            ),
+            ("\"m2_kg\": 20000.0", "\"m2_kg\": 2e-9", "vertical.m2_kg is 2e-9"),
+        ] {
+            assert!(text.contains(from), "{from}: {text}");
+            let error = ElasticParameters::parse("p.json", &text.replacen(from, to, 1))
+                .unwrap_err()
+                .to_string();
+            assert!(error.contains(message), "{error}");
         }
     }
 }

@@ -31,7 +31,7 @@ pub enum ParametersError {
     )]
     Absurd {
         path: String,
-        chain: &'static str,
+        chain: String,
         name: &'static str,
         value: f64,
         times: f64,

@@ -6,6 +6,7 @@ mod checks;
 pub mod corner;
 pub mod elastic;
 mod error;
+mod file;
 mod members_accuracy;
 pub mod predictability;
 pub mod program;
@@ -20,7 +21,6 @@ use serde::{Deserialize, Serialize};
 use cases::Case;
 use dynamics::spring::{Chain, ChainRow, Design, Springs};
 pub use error::ParametersError;
-use files::message::one_line;
 pub use members_accuracy::MembersAccuracy;
 use program::{FootUnits, ProgramRow};
 pub use record::{RecordRow, RememberedError};
@@ -92,7 +92,7 @@ pub struct PaperProcedure {
 #[serde(deny_unknown_fields)]
 pub struct Parameters {
     /// Version of the keys; 4 in what this program writes.
-    #[serde(default = "first")]
+    #[serde(default = "file::first")]
     pub schema: u32,
     /// The body.
     pub structure: Structure,
@@ -159,18 +159,6 @@ pub struct Parameters {
     /// What a reader must know besides.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub findings: Vec<FiledFinding>,
-}
-
-/// The one key that is read of a newer file.
-#[derive(Deserialize)]
-struct Version {
-    #[serde(default = "first")]
-    schema: u32,
-}
-
-/// The schema of files that do not say.
-fn first() -> u32 {
-    1
 }
 
 impl Parameters {
@@ -245,9 +233,7 @@ impl Parameters {
     /// # Errors
     /// A file that cannot be read; as [`Self::parse`].
     pub fn read(path: &Path) -> Result<Self, ParametersError> {
-        let name = path.display().to_string();
-        let text = files::input::text(path)
-            .map_err(|source| ParametersError::Read { path: name.clone(), source })?;
+        let (name, text) = file::read(path)?;
         Self::parse(&name, &text)
     }
 
@@ -257,36 +243,23 @@ impl Parameters {
     /// No JSON, a key missing or not known, a number that cannot be, a newer schema, springs of an
     /// elastic structure.
     pub fn parse(path: &str, text: &str) -> Result<Self, ParametersError> {
-        // a newer file may have keys that this program does not know
-        if let Ok(Version { schema }) = serde_json::from_str(text)
-            && schema > SCHEMA
-        {
-            return Err(ParametersError::Schema { path: path.to_string(), schema });
-        }
+        file::known(path, text)?;
         // of a damaged file it is not known what it is of
-        if let Err(e) = serde_json::from_str::<serde::de::IgnoredAny>(text) {
-            let message = one_line(e.to_string().split(" at line").next().unwrap_or_default());
-            return Err(ParametersError::Parse { path: path.to_string(), line: e.line(), message });
-        }
+        file::parse::<serde::de::IgnoredAny>(path, text)?;
         if elastic::ElasticParameters::is(text) {
             return Err(ParametersError::Elastic { path: path.to_string() });
         }
-        let parameters: Self = serde_json::from_str(text).map_err(|e| {
-            let (path, message) = (path.to_string(), e.to_string());
-            if names_legs(&message) {
-                return ParametersError::Legs { path };
+        let parameters: Self = file::parse(path, text).map_err(|e| match e {
+            ParametersError::Parse { path, message, .. } if names_legs(&message) => {
+                ParametersError::Legs { path }
             }
-            let message = one_line(message.split(" at line").next().unwrap_or_default());
-            ParametersError::Parse { path, line: e.line(), message }
+            other => other,
         })?;
         parameters.checked(path)
     }
 
     /// The file's text.
     pub fn to_json(&self) -> String {
-        // plain numbers and strings always serialise
-        let mut text = serde_json::to_string_pretty(self).unwrap_or_default();
-        text.push('\n');
-        text
+        file::to_json(self)
     }
 }
