@@ -67,7 +67,11 @@ fn options_that_are_no_numbers_or_out_of_range() {
             "run --for sap2000 --integrator trbdf2",
             "SAP2000 takes hht:ALPHA from -1/3 to 0, or newmark:GAMMA:BETA",
         ),
-        ("run --substeps 0", "--substeps is 0; give a number from 1"),
+        ("run --substeps 0", "--substeps is 0; give a power of two from 1"),
+        (
+            "run --substeps 3",
+            "--substeps is 3; give a power of two from 1 to 4096: 1, 2, 4, 8, ...",
+        ),
         ("run --dt 0.01", "name it with --record"),
         ("housner --restitution nan", "--restitution is NaN"),
         ("housner --restitution -1", "--restitution is -1"),

@@ -6,7 +6,7 @@
 //! for = "sap2000"            # or "etabs", "opensees-even"; left out: any program with this integrator
 //! step_s = 0.001
 //! integrator = "hht:-0.333"  # left out: the one that the program is to be set to
-//! substeps = 16              # a step that fails is halved, down to one in so many; 1: never
+//! substeps = 16              # a step that fails is halved, down to one in so many, a power of two; 1: never
 //! ```
 
 use serde::Deserialize;
@@ -20,8 +20,8 @@ use fixed_steps::{
 /// Of a program's time step (s).
 pub const STEP: Limits =
     Limits { least: 1e-6, most: 0.1, remedy: "give a time step between 1e-6 and 0.1 s, as 0.001" };
-/// Of the substeps of a step that fails.
-const SUBSTEP_LIMITS: (usize, usize) = (1, 4096);
+/// Most substeps of a step that fails.
+const MOST_SUBSTEPS: usize = 4096;
 /// What to give for a program that is none.
 const NAMES: &str =
     "give sap2000, etabs or opensees-even; for another program: --step and --integrator";
@@ -91,12 +91,12 @@ impl ProgramSection {
             return Err(("integrator", quoted(given), remedy));
         }
         let substeps = self.substeps.unwrap_or(SUBSTEPS);
-        let (least, most) = SUBSTEP_LIMITS;
-        if !(least..=most).contains(&substeps) {
+        // a step is halved, and its halves are: the least of three substeps would be a half
+        if !(substeps.is_power_of_two() && substeps <= MOST_SUBSTEPS) {
             return Err((
                 "substeps",
                 substeps.to_string(),
-                format!("give a number from {least} to {most}"),
+                format!("give a power of two from 1 to {MOST_SUBSTEPS}: 1, 2, 4, 8, ..."),
             ));
         }
         let step_is_given = self.step_s.is_some();
@@ -160,7 +160,9 @@ mod tests {
                 "for = 'opensees-even'\nintegrator = 'generalized-alpha:0'",
                 "OpenSees with even steps takes backward-euler, trbdf2",
             ),
-            ("substeps = 0", "program.substeps is 0; give a number from 1"),
+            ("substeps = 0", "program.substeps is 0; give a power of two from 1"),
+            ("substeps = 3", "program.substeps is 3; give a power of two from 1 to 4096: 1, 2, 4,"),
+            ("substeps = 8192", "program.substeps is 8192; give a power of two from 1 to 4096"),
         ] {
             let error = read(&format!("[program]\n{wrong}\n")).unwrap_err().to_string();
             assert!(error.starts_with("c.toml, line ") && error.contains(told), "{error}");

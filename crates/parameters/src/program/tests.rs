@@ -215,8 +215,10 @@ fn a_program_that_cannot_step_so_is_refused() {
         refused(|row| row.step_s = -1e-3),
         refused(|row| row.integrator = Integrator::Trbdf2),
         refused(|row| row.substeps = 0),
+        refused(|row| row.substeps = 3),
     ];
-    for (message, key) in messages.iter().zip(["step_s", "step_s", "integrator", "substeps"]) {
+    let keys = ["step_s", "step_s", "integrator", "substeps", "substeps"];
+    for (message, key) in messages.iter().zip(keys) {
         assert!(message.starts_with(&format!("p.json: program.{key} is ")), "{message}");
     }
     // names are read where the file is
