@@ -147,10 +147,12 @@ impl Row {
         self.rocked() && self.well_conditioned
     }
 
-    /// Whether Housner's body rocked without toppling, and on a pivot that never had to pull.
+    /// Whether Housner's body rocked without toppling, and on a pivot that never had to pull. A
+    /// body that was never lifted did not, whatever became of the finite elements.
     pub(crate) fn rocked(&self) -> bool {
         let rocked = matches!(self.outcome, RecordOutcome::Rocked | RecordOutcome::FemFailed);
-        rocked && !self.overturned_housner && self.pivot_pulls_s.is_none()
+        let lifted = self.peak_ratio_housner > 0.0;
+        rocked && lifted && !self.overturned_housner && self.pivot_pulls_s.is_none()
     }
 
     /// The NRMSE of a row: at least 1 where one body topples and the other does not, however long

@@ -160,3 +160,13 @@ fn suites_are_judged_apart_and_together() {
             && json["suites"]["earthquakes"]["nrmse_geometric_mean"]["mean"].is_f64()
     );
 }
+
+/// A record that never lifts Housner's body is none of those that lift it, though the history on
+/// springs fails.
+#[test]
+fn a_failed_history_of_a_body_that_is_never_lifted_is_not_of_the_geometric_mean() {
+    let failed = |peak: f64| row((peak, None), (false, None), 0.0, None);
+    let mean = |peak| GeometricMean::new([&failed(peak)]);
+    assert_eq!(mean(0.0), GeometricMean { count: 0, mean: None, failed: 0 });
+    assert_eq!(mean(0.2), GeometricMean { count: 0, mean: None, failed: 1 });
+}
