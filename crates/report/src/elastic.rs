@@ -24,7 +24,7 @@ use frames::{
     structure::ElasticStructure,
 };
 use parameters::elastic::{ElasticParameters, OnRecord};
-pub use peaks::{SAME_IMPACT, impacts};
+pub use peaks::peaks_on_springs;
 use results::{
     DeckEnd, DesignForce, DesignForces, Ending, Finding, FindingModel, ForceName, PeakChange,
 };

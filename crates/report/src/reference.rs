@@ -311,7 +311,7 @@ fn left_aside(structure: &Structure, with: &MemberHistory) -> Option<Finding> {
 /// ```text
 ///   m ug'' h = (W + T) b
 /// ```
-pub(crate) fn uplift_g(structure: &Structure, members: &Members) -> f64 {
+pub fn uplift_g(structure: &Structure, members: &Members) -> f64 {
     let pull = members.tendon.map_or(0.0, |tendon| tendon.pretension);
     let weight = structure.mass_kg * GRAVITY;
     structure.width_m / (2.0 * structure.height_m) * (1.0 + pull / weight)

@@ -10,15 +10,19 @@ use crate::{
     WebError,
     any_case::AnyCase,
     said::{Does, PeaksFound, Said, Working, does},
-    series::{HistorySeries, tops},
+    series::HistorySeries,
 };
 use cases::{Case, ElasticCase};
 use dynamics::fem::HistoryOutcome;
 use frames::{
     assembled::Assembled,
     fem::{ElasticAnalysis, ElasticHistory},
+    structure::ElasticStructure,
 };
-use report::{Taken, Unit, filed, rigid::at_once::RunAtOnce, sentence};
+use report::{
+    Taken, Unit, elastic::peaks_on_springs, filed_of_elastic, reference::uplift_g,
+    rigid::at_once::RunAtOnce, sentence,
+};
 use results::{Finding, Peaks};
 use springs::{
     at_once::springs_at_once,
@@ -38,7 +42,8 @@ fn rigid(case: &Case, friction: f64) -> Result<Said, WebError> {
     let springs = springs_at_once(&body, case.tuning.asked()).ok_or(WebError::NoSprings)?;
     let RunAtOnce { record, both, run } = RunAtOnce::new(case, &springs, friction)?;
     let history = HistorySeries::of_rigid(case.structure.kind, &body, &both, &record);
-    let said = Said::of(&run, Working::of(&body), history);
+    let working = Working::of(&body, uplift_g(&case.structure, &case.members));
+    let said = Said::of(&run, working, history);
     Ok(Said { verdict: run.preliminary_verdict(), ..said })
 }
 
@@ -67,12 +72,12 @@ fn elastic(case: &ElasticCase) -> Result<Said, WebError> {
     let working = Working::of_elastic(&assembled);
     let found = what_it_does(&assembled, &fem, &record, uplift_g);
     let (does, share_of_overturning) = does(&found);
-    let findings = filed([found]);
+    let findings = filed_of_elastic([found]);
     let verdict = findings.first().map(|filed| sentence(&filed.message)).unwrap_or_default();
     let peaks = (!matches!(does, Does::Unknown)).then(|| PeaksFound {
         reference: None,
         reference_ends_s: None,
-        springs: peaks(&assembled, &fem),
+        springs: peaks(&assembled, &fem, record.dt),
         with_members: None,
     });
     let title = report::elastic::title(&case.structure);
@@ -124,7 +129,7 @@ fn what_it_does(
             over_s: record.duration(),
             largest_at_s: None,
             if_feet_hold: false,
-            of_columns: false,
+            of_columns: matches!(assembled.structure, ElasticStructure::Frame(_)),
             tied: false,
         },
         HistoryOutcome::Stopped { time }
@@ -136,35 +141,11 @@ fn what_it_does(
 }
 
 /// Largest displacements on springs, up to an overturning.
-fn peaks(assembled: &Assembled, fem: &ElasticHistory) -> Peaks {
+fn peaks(assembled: &Assembled, fem: &ElasticHistory, dt: f64) -> Peaks {
     let alpha = assembled.structure.body().alpha();
     let sways = assembled.sways(fem.q.iter().map(Vec::as_slice));
     let fallen = matches!(fem.outcome, HistoryOutcome::Overturned { .. });
     let falls = sways.iter().filter_map(|s| s.rotation.iter().position(|r| r.abs() > alpha)).min();
     let n = falls.filter(|_| fallen).unwrap_or(fem.q.len());
-    let largest = |values: &mut dyn Iterator<Item = f64>| {
-        values.take(n).fold(0.0, |most: f64, x| most.max(x.abs()))
-    };
-    let top_displacement_m = largest(&mut tops(assembled, fem.q.iter().map(Vec::as_slice)));
-    let bending = sways.iter().map(|s| largest(&mut s.drift.iter().copied())).fold(0.0, f64::max);
-    let corners = 0..assembled.layout.corners.len();
-    let uplift_m = corners
-        .map(|i| largest(&mut fem.uplift(&assembled.frame, i).into_iter().map(|x| x.max(0.0))))
-        .fold(0.0, f64::max);
-    // what bending leaves of the top's displacement
-    let mut rocking = tops(assembled, fem.q.iter().map(Vec::as_slice))
-        .zip(sways.iter().take(1).flat_map(|s| s.drift.iter().zip(&s.rotation)))
-        .map(|(top, (drift, rotation))| top - drift * rotation.cos());
-    // touches of corners within a tenth of 1/p are one impact, as in the whole run
-    let rest = report::elastic::SAME_IMPACT / assembled.structure.body().p();
-    let touches = fem.contacts.iter().filter(|contact| contact.touches).map(|contact| contact.time);
-    Peaks {
-        top_displacement_m,
-        rocking_m: largest(&mut rocking),
-        bending_m: Some(bending),
-        uplift_m,
-        drift_ratio: top_displacement_m / assembled.structure.height(),
-        impacts: report::elastic::impacts(touches, rest),
-        ..Peaks::default()
-    }
+    peaks_on_springs(assembled, fem, &sways.iter().collect::<Vec<_>>(), dt, n)
 }

@@ -19,6 +19,7 @@ use fixed_steps::FixedStepProgram;
 use frames::{answer::ElasticAnswer, assembled::Assembled};
 use report::{
     AccuracyReport, ProgramReport, Run, Section, Unit, forces_to_design_with,
+    reference::uplift_g,
     rigid::RigidRun,
     screen::{Written, screen},
 };
@@ -107,7 +108,8 @@ fn of_rigid(case: &Case, friction: f64) -> Result<(Run, Said, RunTexts), WebErro
     let told = run.said(rigid::filed(&run, out));
     let RigidRun { job, both, .. } = &run;
     let history = HistorySeries::of_rigid(case.structure.kind, &job.body, both, &job.record);
-    let said = Said::of(&told, Working::of(&job.body), history);
+    let working = Working::of(&job.body, uplift_g(&case.structure, &case.members));
+    let said = Said::of(&told, working, history);
     Ok((told, said, rigid::texts(&run, out)?))
 }
 

@@ -32,7 +32,8 @@ pub(crate) struct Working {
 }
 
 impl Working {
-    pub(crate) fn of(body: &Body<f64>) -> Self {
+    /// Of a rigid body that this ground acceleration lifts (g).
+    pub(crate) fn of(body: &Body<f64>, uplift_g: f64) -> Self {
         Self {
             half_width_m: body.half_width,
             height_m: body.height,
@@ -43,16 +44,17 @@ impl Working {
             mass_share: body.mass_share(),
             p: body.p(),
             restitution: body.restitution(),
-            uplift_g: body.half_width / body.height,
+            uplift_g,
             frequency_hz: None,
         }
     }
 
     /// Of an elastic structure: lifted by another acceleration than its rigid body.
     pub(crate) fn of_elastic(assembled: &Assembled) -> Self {
-        let own = Self::of(&assembled.structure.body());
-        let uplift_g = assembled.uplift_g().unwrap_or(own.uplift_g);
-        Self { uplift_g, frequency_hz: Some(assembled.structure.fixed_base_frequency_hz()), ..own }
+        let body = assembled.structure.body();
+        let uplift_g = assembled.uplift_g().unwrap_or(body.half_width / body.height);
+        let frequency_hz = Some(assembled.structure.fixed_base_frequency_hz());
+        Self { frequency_hz, ..Self::of(&body, uplift_g) }
     }
 }
 

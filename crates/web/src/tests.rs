@@ -9,6 +9,12 @@ const PIER: &str = "[structure]\nkind = \"pier\"\nheight_m = 12.0\nwidth_m = 4.0
     footing_mass_kg = 60e3\nfooting_height_m = 1.5\nfrequency_hz = 2.0\ndamping_ratio = 0.02\n\
     [record]\nduration_s = 20.0\n";
 
+/// A portal frame on two footings that slide apart as it rocks.
+const PORTAL: &str = "[structure]\nkind = 'frame'\nheight_m = 9.0\nspan_m = 8.0\n\
+    footing_width_m = 2.0\nfooting_height_m = 1.0\nfooting_mass_kg = 30e3\nbeam_mass_kg = 400e3\n\
+    column_ea_n = 3e10\ncolumn_ei_nm2 = 2e9\nbeam_ea_n = 3e10\nbeam_ei_nm2 = 4e9\n\
+    damping_ratio = 0.03\n[record]\nduration_s = 8.0\n";
+
 fn parsed(answer: JsonOrLine) -> Value {
     serde_json::from_str(&answer.unwrap()).unwrap()
 }
@@ -57,6 +63,37 @@ fn a_pier_is_answered_at_once() {
     assert!((of("top_displacement_m") / 0.386 - 1.0).abs() < 2e-2, "{peaks}");
     assert!((of("bending_m") / 0.0168 - 1.0).abs() < 5e-2, "{peaks}");
     assert_eq!(answer["history"]["springs"]["bases"].as_array().unwrap().len(), 1);
+}
+
+/// Peaks at once are those of the whole run by definition: the top's parts are one sum, and the
+/// drift ratio leaves out what the feet move.
+#[test]
+fn peaks_at_once_are_defined_as_those_of_a_run() {
+    for case in [PIER, PORTAL] {
+        let answer = parsed(at_once(case, 0.5));
+        let springs = &answer["peaks"]["springs"];
+        let of = |row: &Value, what: &str| row[what].as_f64().unwrap_or(f64::NAN);
+        let top = of(springs, "top_displacement_m");
+        let parts =
+            ["rocking_m", "bending_m", "feet_moved_m"].map(|what| of(&springs["then"], what));
+        assert!((parts.iter().sum::<f64>() / top - 1.0).abs() < 1e-9, "{springs}");
+        let height = if case == PIER { 12.0 } else { 9.0 };
+        let (rocks, moved) = (of(springs, "drift_ratio") * height, of(springs, "feet_moved_m"));
+        assert!(moved > 0.0 && (rocks - top).abs() <= moved * (1.0 + 1e-9), "{springs}");
+        assert!(rocks >= parts[0] + parts[1] - 1e-12, "{springs}");
+    }
+    let said = parsed(at_once(PORTAL, 0.5))["findings"][0]["message"].to_string();
+    assert!(said.contains("of columns "), "{said}");
+}
+
+/// (1 + T/W) b/h, T a tendon's tension and W the weight: (1 + 4000/(400 9.81)) 0.25.
+#[test]
+fn a_tendon_holds_a_body_down() {
+    let block = "[structure]\nkind = 'block'\ntotal_height_m = 2.0\nwidth_m = 0.5\nmass_kg = 400\n\
+                 [tendon]\nstiffness_n_per_m = 1e5\npretension_n = 4000.0\n";
+    let answer = parsed(at_once(block, 0.5));
+    let uplift_g = answer["working"]["uplift_g"].as_f64().unwrap();
+    assert!((uplift_g - 0.25 * (1.0 + 4000.0 / (400.0 * 9.81))).abs() < 1e-12, "{uplift_g}");
 }
 
 #[test]
