@@ -2,13 +2,15 @@
 //! name.
 //!
 //! ```toml
-//! [structure] kind = "aframe"            # or "block" height_m = 61.0            # of the centre
-//! of mass above the feet; a block also total_height_m; also _ft, _in width_m = 12.2             #
-//! between the feet; also _ft, _in mass_kg = 680.1e3          # also mass_t, mass_lb, weight_kn,
-//! weight_kip, weight_lb
+//! [structure]
+//! kind = "aframe"            # or "block"
+//! # of the centre of mass above the feet; a block also total_height_m; also _ft, _in
+//! height_m = 61.0
+//! width_m = 12.2             # between the feet; also _ft, _in
+//! mass_kg = 680.1e3          # also mass_t, mass_lb, weight_kn, weight_kip, weight_lb
 //!
-//! [damper]                   # also [tendon] stiffness_n_per_m, pretension_n; [friction]
-//! coefficient c_ns_per_m = 1e6
+//! [damper]                   # also [tendon] stiffness_n_per_m, pretension_n
+//! c_ns_per_m = 1e6           # and [friction] coefficient
 //!
 //! [record]                   # left out: El Centro 1940 NS
 //! file = "motion.at2"        # relative to the case file

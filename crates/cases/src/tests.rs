@@ -132,3 +132,20 @@ fn an_assumption_can_be_printed() {
     let expected = "Housner's restitution (equation 2) = 0.6 (structure.restitution)";
     assert!(told.iter().any(|told| told == expected), "{told:?}");
 }
+
+/// The case file that this crate's documentation shows, but for its record, is a case.
+#[test]
+fn the_case_file_of_the_documentation_is_read() {
+    let shown = include_str!("lib.rs").split("//! ```").nth(1).unwrap();
+    let lines = shown.lines().filter_map(|line| line.strip_prefix("//!")).map(str::trim);
+    let records = ["file = ", "vertical = "];
+    let text: Vec<&str> =
+        lines.filter(|line| !records.iter().any(|key| line.starts_with(key))).collect();
+    let case = Case::parse("case.toml", &text.join("\n")).unwrap();
+    assert_eq!((case.structure.height_m, case.structure.width_m), (61.0, 12.2));
+    assert_eq!(case.members.damper.unwrap().c, 1e6);
+    assert!(
+        case.program.is_some()
+            && text.contains(&"duration_s = 20.0          # left out: all of it")
+    );
+}

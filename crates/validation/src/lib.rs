@@ -4,9 +4,10 @@
 //! ```text
 //! peak ratio      max |theta| / alpha while a foot is off the ground; pi/2 / alpha for a body that toppled
 //! KS distance     D = max over x of | F_H(x) - F_FE(x) |,  F the share of records whose peak ratio is at most x
-//! NRMSE           sqrt( sum (u - u_H)^2 / sum u_H^2 ) over the samples that both histories have, up to the first
-//! overturning sensitivity     the worst of || du_H/dln x || / || u_H ||, x the width and the record's scale
-//! (`conditioning`)
+//! NRMSE           sqrt( sum (u - u_H)^2 / sum u_H^2 ) over the samples that both histories have,
+//!                 up to the first overturning
+//! sensitivity     the worst of || du_H/dln x || / || u_H ||, x the width and the record's scale
+//!                 (`conditioning`)
 //! ```
 //!
 //! D is the two-sample distance of Kolmogorov and Smirnov (Smirnov 1939). What is counted how:
