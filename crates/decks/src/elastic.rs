@@ -6,13 +6,14 @@ use std::f64::consts::TAU;
 use super::{
     CornerProgram, DeckFormat, EvenEnds, ExportError,
     language::{Language, PYTHON, TCL, record_note},
-    model::digits,
+    model::{SMALL_MOTION, TOLERANCE, digits},
     plain::{self, NamedSprings},
     printable_title, sap2000,
     stepping::EvenSteps,
 };
 use dynamics::spring::{Chain, Springs};
 use files::message::significant;
+use fixed_steps::contact::HOLDS;
 use frames::frame::{Frame, FrameDamper, FrameLayout, FrameMember, FrameTendon, NodePoint};
 use rocking::scalar::GRAVITY;
 use strong_motion::Record;
@@ -23,10 +24,6 @@ const ARM_STIFFNESS: f64 = 4.0;
 /// The same on the softer springs of steps of one size, whose tolerance leaves the digits for it:
 /// on arms as soft as above the columns would give at their ends.
 const EVEN_ARM_STIFFNESS: f64 = 100.0;
-/// Newton's displacement tolerance over the span of the structure, some twenty times rounding.
-const TOLERANCE: f64 = 2e-14;
-/// Rise of a corner that counts as a motion, over that at which the structure topples.
-const SMALL_MOTION: f64 = 0.01;
 /// From this part of a record's step on dashpots of beams work where steps follow touches: the
 /// first step is shorter.
 const SMALL_STEP: f64 = 1e-4;
@@ -195,6 +192,7 @@ impl ElasticDeck<'_> {
             ("CORNERS", language.lines(self.corners(language))),
             ("DAMPERS", language.lines(self.dampers(language))),
             ("TENDONS", language.lines(self.tendons(language))),
+            ("FRICTION", format!("{HOLDS:e}")),
             ("LEG", digits(if softer { EVEN_ARM_STIFFNESS } else { ARM_STIFFNESS })),
             ("RECORD_DT", digits(self.record.dt)),
             ("DAMPED_FROM", digits(even.map_or(SMALL_STEP * self.record.dt, |e| e.damped_from()))),

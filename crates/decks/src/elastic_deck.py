@@ -123,7 +123,7 @@ def build():
 @SHEAR_SPRINGS@
     # Friction so high that a pressing corner never slides: the horizontal spring k1 acts whenever the corner presses, and not at
     # all when it is in the air.
-    ops.frictionModel("Coulomb", 1, 1e7)
+    ops.frictionModel("Coulomb", 1, @FRICTION@)
     for i, (owner, arm, (k1, k2, c, m2), (k1_h, k2_h, c_h, m2_h)) in enumerate(CORNERS):
         absorber, ground = ABSORBER + i, GROUND + i
         foot = rigid_arm(20000 + i, owner, CORNER + i, arm, rigid)

@@ -160,7 +160,7 @@ proc build {} {
     }
 @SHEAR_SPRINGS@    # Friction so high that a pressing corner never slides: the horizontal spring k1 acts whenever the corner presses, and not at
     # all when it is in the air.
-    frictionModel Coulomb 1 1e7
+    frictionModel Coulomb 1 @FRICTION@
     set feet {}
     set i 0
     foreach corner $corners {

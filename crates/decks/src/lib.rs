@@ -38,6 +38,7 @@ pub use even_ends::EvenEnds;
 pub use expectation::{DeckExpectation, foretold_rigid};
 use files::message::significant;
 use fixed_steps::MemberDamping;
+use frames::frame::FALLEN;
 use model::DeckModel;
 pub use model::{ACCURACY, with_inertia};
 pub use output::OutputSteps;
@@ -130,10 +131,11 @@ impl std::str::FromStr for DeckFormat {
     }
 }
 
-/// Rotation at which a body has fallen over (rad): a deck's history ends there.
-const FALLEN: f64 = 1.0;
+/// Relative tolerance of an iteration above which one suspects a misprint.
+pub const LARGE_TOLERANCE: f64 = 0.01;
 
-/// Samples of a rotation (rad) up to the one at which a body has fallen over; all if it has not.
+/// Samples of a rotation (rad) up to the one at which a body has fallen over, where a deck's
+/// history ends; all if it has not.
 pub fn samples_to_fall(theta: &[f64]) -> usize {
     theta.iter().position(|theta| theta.abs() >= FALLEN).map_or(theta.len(), |i| i + 1)
 }

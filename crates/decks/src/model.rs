@@ -33,17 +33,17 @@ pub(super) const LEG_STIFFNESS: f64 = 4.0;
 /// What a history's error is to be, unless one asks otherwise.
 pub const ACCURACY: f64 = 0.002;
 
-/// Newton's displacement tolerance over R: some twenty times what rounding leaves of it with legs
-/// of [`LEG_STIFFNESS`].
-const TOLERANCE: f64 = 2e-14;
+/// Newton's displacement tolerance over R, of an elastic structure over its span: some twenty times
+/// what rounding leaves of it with legs of [`LEG_STIFFNESS`].
+pub(super) const TOLERANCE: f64 = 2e-14;
 
 /// The accuracy asked is tightened with what a change of the width by 1e-5 does to the history
 /// (from 6.7e-5 on), since the steps' error grows as that does; so many times at most: steps a
 /// third as long.
 const TIGHTER: f64 = 15_000.0;
 const TIGHTEST: f64 = 8.0;
-/// Rise of a foot that counts as a motion, over that at which the body topples.
-const SMALL_MOTION: f64 = 0.01;
+/// Rise of a foot that counts as a motion, over that at which the structure topples.
+pub(super) const SMALL_MOTION: f64 = 0.01;
 /// Steps per sample where steps follow from the accuracy: a pair, ended by every sample.
 pub(super) const A_PAIR: usize = 2;
 

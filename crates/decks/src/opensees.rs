@@ -6,6 +6,7 @@ use super::{
     language::{Language, PYTHON, TCL, record_note},
     model::{A_PAIR, DeckModel, LEG_STIFFNESS, digits},
 };
+use fixed_steps::contact::HOLDS;
 use rocking::{
     members::{Members, slides},
     scalar::GRAVITY,
@@ -20,11 +21,6 @@ pub(super) fn python(model: &DeckModel) -> Result<String, ExportError> {
 pub(super) fn tcl(model: &DeckModel) -> Result<String, ExportError> {
     fill(&TCL, include_str!("deck.tcl"), model)
 }
-
-/// A coefficient of friction at which no pressing foot ever slips, not even in the last microsecond
-/// before it lifts: with 1000 a foot that lifts lets its horizontal force go in 20 us instead of at
-/// once, and 3 s of a 2 m block are off by 3e-4.
-const HOLDS: f64 = 1e7;
 
 /// Steps of a sample at least while feet slip: their error is measured by what the feet rise, which
 /// tells nothing of a slide. A block 0.9 m high slides by 37 mm and ends at 4.45 mm: with two at

@@ -59,6 +59,7 @@ pub use landings::{Landing, MOMENT};
 pub use lanes::histories;
 pub use model::MASSLESS_ROTATION;
 pub use observer::{Change, Observer, View};
+pub use run::{AT_ONCE, MOST_LOCATED, RESTART};
 
 use std::ops::ControlFlow;
 

@@ -19,7 +19,9 @@
 
 use dynamics::spring::{Chain, Springs};
 
-/// mu of our decks: a pressing foot does not slide.
+/// A coefficient of friction at which no pressing foot ever slips, not even in the last microsecond
+/// before it lifts: with 1000 a foot that lifts lets its horizontal force go in 20 us instead of at
+/// once, and 3 s of a 2 m block are off by 3e-4. That of our decks.
 pub const HOLDS: f64 = 1e7;
 
 /// A foot.

@@ -19,15 +19,12 @@ use frames::{
 use nalgebra::{DMatrix, DVectorViewMut, Dyn, LU};
 
 use crate::{
+    FALLING,
     analysis::{FixedStepAnalysis, FixedStepOutcome, FixedStepWork},
     contact::{CondensedUnit, FixedFoot},
     kinematics::{TangentWeights, Trial},
     model::FixedStepModel,
 };
-
-/// Rotation of a base over that at which it topples, beyond which a structure falls: as of a rigid
-/// body.
-const FALLING: f64 = 2.0;
 
 /// A frame on its springs.
 #[derive(Clone, Copy, Debug)]

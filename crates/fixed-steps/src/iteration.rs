@@ -10,6 +10,9 @@ use crate::{
     model::FixedStepModel,
 };
 
+/// Newton's iterations at most.
+pub const NEWTON: usize = 30;
+
 /// What an iteration has to come below.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ConvergenceTest {

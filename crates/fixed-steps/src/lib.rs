@@ -41,6 +41,10 @@ pub mod rebound;
 pub mod recipe;
 pub mod rigid;
 
+/// Lean of a body over alpha, rotation of a base over that at which it topples, beyond which it
+/// falls.
+pub(crate) const FALLING: f64 = 2.0;
+
 pub use analysis::{FixedStepAnalysis, FixedStepHistory, FixedStepOutcome, GaveUp, StepSettings};
 pub use elastic::{FixedStepFrame, FixedStepFrameHistory};
 pub use events::EventStepping;

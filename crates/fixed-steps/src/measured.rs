@@ -166,6 +166,6 @@ impl ErrorsOverMotions {
     fn with_lost(&self, sorted: &[f64], q: f64) -> f64 {
         let mut all = sorted.to_vec();
         all.extend(std::iter::repeat_n(f64::INFINITY, self.lost()));
-        quantile(&all, q).filter(|x| x.is_finite()).unwrap_or(f64::INFINITY)
+        quantile(&all, q).unwrap_or(f64::INFINITY)
     }
 }

@@ -20,9 +20,9 @@ use thiserror::Error;
 use crate::{
     analysis::StepSettings,
     integrator::Integrator,
-    iteration::{ConvergenceTest, Iteration},
+    iteration::{ConvergenceTest, Iteration, NEWTON},
     kinematics::MemberDamping,
-    recipe::{NEWTON, TOLERANCE},
+    recipe::TOLERANCE,
 };
 use rocking::scalar::GRAVITY;
 

@@ -20,7 +20,7 @@ use crate::{
     analysis::{FixedStepAnalysis, StepSettings},
     contact::FixedFoot,
     integrator::Integrator,
-    iteration::{ConvergenceTest, Iteration},
+    iteration::{ConvergenceTest, Iteration, NEWTON},
     kinematics::{Kinematics, TangentWeights, Trial},
     model::FixedStepModel,
 };
@@ -113,7 +113,7 @@ impl FallingMass {
         let count = ((LENGTH / step).ceil() + 2.0 * BEFORE) as usize;
         let accel = vec![0.0; count + 1];
         let iteration =
-            Iteration { constant: 0, newton: 30, test: ConvergenceTest::Increment(1e-9) };
+            Iteration { constant: 0, newton: NEWTON, test: ConvergenceTest::Increment(1e-9) };
         let settings = StepSettings { iteration, ..StepSettings::new(*integrator, step) };
         let height = (BEFORE + phase) * step;
         let start = Kinematics::moving([height, 0.0], [-1.0, 0.0], [0.0; 2]);

@@ -30,7 +30,7 @@ use crate::{
     analysis::StepSettings,
     expected::ExpectedError,
     integrator::{Integrator, IntegratorError},
-    iteration::{ConvergenceTest, Iteration},
+    iteration::{ConvergenceTest, Iteration, NEWTON},
 };
 use rocking::scalar::GRAVITY;
 
@@ -95,8 +95,6 @@ pub const LEAST_INERTIA: f64 = rocking::structure::LEAST_INERTIA;
 
 /// Convergence tolerance over g dt^2: see [`FixedStepSprings::iteration`].
 pub const TOLERANCE: f64 = 0.1;
-/// Newton's iterations at most.
-pub const NEWTON: usize = 30;
 
 /// Springs for a body in a program with one size of step.
 #[derive(Clone, Copy, Debug)]

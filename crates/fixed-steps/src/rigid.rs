@@ -19,6 +19,7 @@ use frames::frame::EquilibriumError;
 use rocking::{scalar::GRAVITY, structure::Body};
 
 use crate::{
+    FALLING,
     contact::{CondensedUnit, FixedFoot},
     kinematics::{TangentWeights, Trial},
     model::FixedStepModel,
@@ -26,8 +27,6 @@ use crate::{
 
 /// Number of coordinates.
 const N: usize = 7;
-/// Lean over alpha beyond which a body falls.
-const FALLING: f64 = 2.0;
 /// Sides of the feet.
 const SIDE: [f64; 2] = [-1.0, 1.0];
 const X: usize = 0;

@@ -29,7 +29,7 @@ mod place;
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-pub use base::Base;
+pub use base::{Base, FALLEN};
 pub use builders::{Cantilever, Footing, LeggedFrame, Portal, StraightMember};
 pub use equilibrium::{EquilibriumError, Support};
 pub use forces::StrainRates;

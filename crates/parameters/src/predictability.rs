@@ -11,7 +11,7 @@ use dynamics::{
 };
 use results::Finding;
 use rocking::{
-    conditioning::{self, Conditioning, ILL_CONDITIONED},
+    conditioning::{self, Conditioning, ILL_CONDITIONED, SLIGHT_CHANGE},
     housner::RockingOptions,
     motion::{Motion, nrmse, samples_until},
     scalar::GRAVITY,
@@ -19,9 +19,6 @@ use rocking::{
 };
 use serde::{Deserialize, Serialize};
 use strong_motion::Record;
-
-/// Relative change of the width.
-const CHANGE: f64 = 1e-5;
 
 /// Share of the largest u that the same change moves a history by where it can no longer be
 /// foretold: a deck's own error is some ten times as much there, and grows as fast.
@@ -49,7 +46,7 @@ pub fn width_sensitivity(motion: &Motion, parameters: &Parameters, record: &Reco
 /// The history of the model with that change of the width.
 pub fn slightly_wider(parameters: &Parameters, record: &Record) -> Motion {
     let structure = Structure {
-        width_m: parameters.structure.width_m * (1.0 + CHANGE),
+        width_m: parameters.structure.width_m * (1.0 + SLIGHT_CHANGE),
         ..parameters.structure
     };
     simulate(&Parameters { structure, ..parameters.clone() }, record).motion

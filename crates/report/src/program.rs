@@ -5,7 +5,7 @@ mod errors;
 use serde::Serialize;
 
 use super::{Section, Table, Unit, elastic::springs::corner_units, filed, predictable_to};
-use decks::OutputSteps;
+use decks::{LARGE_TOLERANCE, OutputSteps};
 use errors::{ErrorWords, ErrorsOf, errors, table};
 use files::message::{quantity, significant};
 use parameters::{
@@ -20,8 +20,6 @@ use springs::fixed_steps::THROUGH;
 const EVEN: &str = " with even steps";
 /// Part of a step within which times are the same.
 const SAME: f64 = 1e-6;
-/// A tolerance above which one suspects a misprint.
-const LARGE: f64 = 0.01;
 
 /// Springs for a program with fixed time steps.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -274,7 +272,7 @@ fn settings<U>(
     }
     let (name, value, large) = match row.converged {
         ProgramTest::UnbalanceOverWeight(x) => {
-            ("iteration convergence tolerance, relative", significant(x, 3), x > LARGE)
+            ("iteration convergence tolerance, relative", significant(x, 3), x > LARGE_TOLERANCE)
         }
         ProgramTest::IncrementM(x) => {
             ("tolerance of a change of place", format!("{} m", significant(x, 3)), false)

@@ -23,6 +23,10 @@ use crate::structure::Body;
 /// one to one.
 pub const ILL_CONDITIONED: f64 = 10.0;
 
+/// Relative change of a width or a restitution that no structure is known to: how far it moves a
+/// history, and changes statistics, no model can be asked to do better than.
+pub const SLIGHT_CHANGE: f64 = 1e-5;
+
 /// Largest sensitivity that is told; beyond it not one digit of a history in double precision is
 /// certain.
 pub(crate) const LARGEST: f64 = 1e15;

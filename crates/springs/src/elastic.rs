@@ -29,7 +29,10 @@ use self::{
     suite::{ElasticSuite, Measured},
     trial::ElasticTrial,
 };
-use super::ladder::{DECADE, Ladder, RungProgress, best};
+use super::{
+    ladder::{DECADE, Ladder, RungProgress, best},
+    stiffness_search::MARGIN,
+};
 use cases::{ACCURACY, Asked, PEAKS, Yardstick};
 use dynamics::{
     effort::{CutBy, Effort},
@@ -46,8 +49,6 @@ use strong_motion::Record;
 /// Units of work that a search may take unless told otherwise: about a minute and a half on two
 /// cores.
 pub const MOST_WORK: u64 = 240_000_000;
-/// Share of the accuracy asked for that is aimed at.
-const MARGIN: f64 = 0.7;
 /// Rungs: a compliance ratio of 0.1 to 1e-8.
 const RUNGS: (i64, i64) = (10, 80);
 /// Give over accuracy where the search begins.

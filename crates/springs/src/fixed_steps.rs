@@ -31,7 +31,10 @@ mod units;
 pub use self::units::{DesignNumbers, design};
 
 use self::instead::{ProgramInstead, USELESS, deciding, instead};
-use super::suite::{JudgedOn, Suites};
+use super::{
+    ALIKE,
+    suite::{JudgedOn, Suites},
+};
 use cases::Case;
 use dynamics::effort::Effort;
 use fixed_steps::{
@@ -51,8 +54,6 @@ const UNASKED: usize = 1;
 const STIFFER: [f64; 2] = [48.0, 20.0];
 /// Median error that springs may have, over the floor.
 const OVER_FLOOR: f64 = 1.7;
-/// Ratio of median errors up to which springs are alike on some fifty motions.
-const ALIKE: f64 = 1.25;
 /// Where a user asks for a program, so many synthetic motions more choose the springs, and others
 /// tell what they err.
 const ALSO_CHOOSE: usize = 24;

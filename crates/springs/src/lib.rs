@@ -28,5 +28,9 @@ mod search;
 pub mod stiffness_search;
 pub mod suite;
 
+/// Ratio of typical errors up to which springs are alike on some twenty to fifty motions: something
+/// else decides, or more motions do.
+pub(crate) const ALIKE: f64 = 1.25;
+
 /// What is told of a search: what is done, of how much (0 if unknown), and the least error so far.
 pub type SearchProgress<'a> = &'a (dyn Fn(usize, usize, f64) + Sync);

@@ -10,7 +10,7 @@ use dynamics::{
     spring::{Chain, Springs},
 };
 use rocking::{
-    conditioning::Conditioning,
+    conditioning::{Conditioning, SLIGHT_CHANGE},
     housner,
     motion::{largest_magnitude, samples_until},
     regime,
@@ -56,9 +56,6 @@ impl From<&Source> for Suite {
         }
     }
 }
-
-/// Relative change of the restitution that shows how far Housner's statistics depend on nothing.
-const CHANGE: f64 = 1e-5;
 
 /// What is kept of a record. Options are empty (`null` in JSON) where there is no such number.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -287,7 +284,7 @@ impl Validator {
             ratio(peak, rocking.overturned().is_some())
         };
         let changed = housner::RockingOptions {
-            restitution: Some(self.restitution * (1.0 - CHANGE)),
+            restitution: Some(self.restitution * (1.0 - SLIGHT_CHANGE)),
             ..options.clone()
         };
         let changes = conditioning.map(|c| c.changes).unwrap_or_default();

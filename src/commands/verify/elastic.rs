@@ -23,12 +23,12 @@ use run_folder::{
     place::{check_folder, write_file},
     tables::csv_row,
 };
+use springs::suite::LOOSER;
 use strong_motion::{Record, excitation::Excitation};
 
 /// Largest NRMSE of rotation between OpenSees and our own history, while a change of the motion
 /// grows less than 30-fold: OpenSees' steps miss more than ours; of bending, five times that.
 const LIMIT: f64 = 0.002;
-const LOOSER: f64 = 5.0;
 
 /// Share of the structure's span, and rotation (rad), below which nothing moves to speak of.
 const STILL: f64 = 1e-8;

@@ -5,6 +5,7 @@ mod etabs;
 
 use std::fmt::Write;
 
+use super::super::LARGE_TOLERANCE;
 use super::{FRICTION, KILO, MODULUS, SapModel, cases::CaseSettings, parts::SpringLinks};
 use compare::{expected, notes};
 use files::message::significant;
@@ -255,9 +256,10 @@ fn motions(parts: &SapModel) -> String {
 
 /// That a tolerance which looks like a misprint is none.
 fn meant(tolerance: &str) -> &'static str {
-    const LARGE: f64 = 0.01;
     match tolerance.parse::<f64>() {
-        Ok(x) if x > LARGE => " (meant so large: with a smaller one such steps lose histories)",
+        Ok(x) if x > LARGE_TOLERANCE => {
+            " (meant so large: with a smaller one such steps lose histories)"
+        }
         _ => "",
     }
 }

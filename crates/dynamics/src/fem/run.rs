@@ -25,6 +25,7 @@ use super::{
 };
 pub(super) use account::{Contacts, Scales, StepMeasures};
 use events::Locating;
+pub use events::{AT_ONCE, MOST_LOCATED, RESTART};
 pub(crate) use ground::GroundMotion;
 use met::StepEvent;
 use rocking::scalar::GRAVITY;

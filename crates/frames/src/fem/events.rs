@@ -1,15 +1,10 @@
 //! Touches and lifts: met on the cubic through a step's values, located by repeating the step.
 
 use super::{model::CornerState, run::SpringsRun, step::ElasticStages};
-use dynamics::fem::cubic::{Cubic, NODES};
-
-/// Steps that locate one event: Newton's method needs two or three.
-const MOST_LOCATED: usize = 40;
-
-/// A corner that closes again this soon after it opened, in units of 1/Omega_n, has hardly left the
-/// ground: its horizontal spring threw it up. It would do so again and again, at an accumulating
-/// sequence of instants; it slides instead, until it stops.
-const AT_ONCE: f64 = 0.1;
+use dynamics::fem::{
+    AT_ONCE, MOST_LOCATED,
+    cubic::{Cubic, NODES},
+};
 
 /// What a step meets.
 #[derive(Clone, Copy, Debug, PartialEq)]

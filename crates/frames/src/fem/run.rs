@@ -12,12 +12,8 @@ use super::{
     step::{ElasticRequest, ElasticStages, ElasticStepper},
 };
 use crate::frame::Base;
-use dynamics::fem::{Control, Energy, HistoryOutcome, Work, iterate::Ground};
+use dynamics::fem::{Control, Energy, HistoryOutcome, RESTART, Work, iterate::Ground};
 use rocking::scalar::GRAVITY;
-
-/// First step tried after an event, in units of 1/Omega_n: the transient that the event began
-/// decides the step, not the step that the event cut short.
-const RESTART: f64 = 0.1;
 
 /// What a run shows.
 pub(super) struct ElasticView<'a> {

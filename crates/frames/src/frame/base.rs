@@ -3,8 +3,8 @@
 
 use super::Frame;
 
-/// Rotation of a base at which a structure has fallen over (rad), that of a rigid body's decks.
-const FALLEN: f64 = 1.0;
+/// Rotation of a base at which a structure has fallen over (rad), a rigid body as well.
+pub const FALLEN: f64 = 1.0;
 
 /// What rotates rigidly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -8,7 +8,7 @@ use super::{
     design::CornerSprings,
     trial::{ElasticTrial, ElasticTrialOutcome, Judged},
 };
-use crate::suite::quantile;
+use crate::suite::{LOOSER, SEED, quantile};
 use cases::{Asked, Yardstick};
 use dynamics::{effort::Effort, fem::Control};
 use frames::{
@@ -26,10 +26,6 @@ const SAMPLES: f64 = 1600.0;
 /// Motions of each suite that are followed, and that are looked at for them.
 const MOTIONS: usize = 8;
 const LOOKED_AT: usize = 12;
-/// Seed of both.
-const SEED: u64 = 1940;
-/// How much more sways and the worst tenth may have than the accuracy asked for.
-pub const LOOSER: f64 = 5.0;
 
 /// Errors of rotations and sways (NRMSE) over several histories; infinite, `null` in JSON, where
 /// histories on springs do not get as far as the reference.

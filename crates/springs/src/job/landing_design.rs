@@ -5,7 +5,7 @@ use std::{cmp::Ordering, f64::consts::TAU};
 
 use super::{CEILING_HZ, JobError, Procedure, RestitutionChoice, evaluate};
 use crate::{
-    SearchProgress, at_once, capped_springs,
+    ALIKE, SearchProgress, at_once, capped_springs,
     ladder::RungProgress,
     landing_simulation::differs_from_housner,
     paper_procedure::outer::Bracket,
@@ -24,9 +24,6 @@ use rocking::structure::Body;
 /// Omega_n of springs that are to have another restitution than equation 2's, where no cap is given
 /// (Hz): they must bounce, and gravity bring them back.
 const BOUNCING_HZ: f64 = 160.0;
-/// Ratio of typical errors up to which springs within a cap are alike on some twenty motions: more
-/// motions decide.
-const ALIKE: f64 = 1.25;
 
 /// The design from the geometry, and Omega_n.
 pub(super) struct LandingDesign<'a> {

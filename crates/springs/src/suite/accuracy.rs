@@ -51,7 +51,7 @@ pub struct Accuracy {
 /// few, and real records differ from them.
 pub(crate) const ERRORS: i32 = 3;
 /// How much more the 90 % quantile and the earthquake-like motions may have than the accuracy asked
-/// for.
+/// for; sways of elastic structures, too.
 pub const LOOSER: f64 = 5.0;
 
 impl Accuracy {

@@ -10,8 +10,9 @@ use crate::fem::{
 };
 
 /// A foot that closes again this soon after it opened, in units of 1/Omega_n, has hardly left the
-/// ground.
-const AT_ONCE: f64 = 0.1;
+/// ground: its horizontal spring threw it up. It would do so again and again, at an accumulating
+/// sequence of instants; it slides instead, until it stops.
+pub const AT_ONCE: f64 = 0.1;
 
 /// Share of what the other foot carries: a lifting foot that lets go of a smaller horizontal force,
 /// once it closes again at once, does not hold.
@@ -38,7 +39,7 @@ const LATER: f64 = 1.1;
 
 /// Steps that locate one event: Newton's method needs two or three, bisection where the gap all but
 /// grazes many more.
-const MOST_LOCATED: usize = 40;
+pub const MOST_LOCATED: usize = 40;
 
 /// Touches and lift-offs of one jump of a massless rotation before it counts as having lost its
 /// balance.
@@ -54,7 +55,7 @@ const FASTEST_TURN: f64 = 100.0;
 
 /// First step tried after an event, in units of 1/Omega_n: the transient that the event began
 /// decides the step, not the step that the event cut short.
-pub(super) const RESTART: f64 = 0.1;
+pub const RESTART: f64 = 0.1;
 
 /// The event that a step is repeated for, so that it ends where a foot's compression passes a
 /// level.
