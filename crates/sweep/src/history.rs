@@ -186,20 +186,11 @@ pub(super) struct WantedHistory<'a> {
 impl WantedHistory<'_> {
     /// What to say of a history, and its NRMSE against Housner's.
     fn answer(&self, stream: &ComparisonObserver, finish: &fem::Finish) -> AnswerOnSprings {
-        let outcome = match finish.outcome {
-            fem::HistoryOutcome::Overturned { .. } | fem::HistoryOutcome::Stopped { .. } => {
-                CellOutcome::Overturned
-            }
-            fem::HistoryOutcome::Completed
-                if housner::topples(&self.subject.body, stream.last.0, stream.last.1) =>
-            {
-                CellOutcome::Overturned
-            }
-            fem::HistoryOutcome::Completed if stream.peak == 0.0 => CellOutcome::NeverLifted,
-            fem::HistoryOutcome::Completed => CellOutcome::Rocked,
-            fem::HistoryOutcome::WorkBound { .. } | fem::HistoryOutcome::Unstable { .. } => {
-                CellOutcome::Failed
-            }
+        let outcome = match stream.overturned(finish.outcome) {
+            Some(true) => CellOutcome::Overturned,
+            Some(false) if stream.peak == 0.0 => CellOutcome::NeverLifted,
+            Some(false) => CellOutcome::Rocked,
+            None => CellOutcome::Failed,
         };
         let outcome = if stream.peak.is_finite() { outcome } else { CellOutcome::Failed };
         let errors =

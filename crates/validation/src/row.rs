@@ -14,7 +14,6 @@ use rocking::{
     housner,
     motion::{largest_magnitude, samples_until},
     regime,
-    structure::Body,
 };
 use strong_motion::{Record, Source};
 
@@ -182,16 +181,8 @@ pub(crate) struct HistoryEnd {
 }
 
 impl HistoryEnd {
-    fn of(body: &Body<f64>, stream: &ComparisonObserver, finish: &fem::Finish) -> Self {
-        let overturned = match finish.outcome {
-            fem::HistoryOutcome::Overturned { .. } | fem::HistoryOutcome::Stopped { .. } => {
-                Some(true)
-            }
-            fem::HistoryOutcome::Completed => {
-                Some(housner::topples(body, stream.last.0, stream.last.1))
-            }
-            fem::HistoryOutcome::WorkBound { .. } | fem::HistoryOutcome::Unstable { .. } => None,
-        };
+    fn of(stream: &ComparisonObserver, finish: &fem::Finish) -> Self {
+        let overturned = stream.overturned(finish.outcome);
         let residual = stream.residual / finish.energy_scale;
         let energy_residual = (!residual.is_nan()).then(|| residual.min(f64::MAX));
         Self { overturned, energy_residual }
@@ -229,7 +220,7 @@ impl Validator {
         let followed = fem::histories(&cases, watch);
         parallel::map_range(0..answers.len(), |i| {
             let (stream, finish) = &followed[i];
-            self.row(&answers[i], stream, &HistoryEnd::of(&self.body, stream, finish))
+            self.row(&answers[i], stream, &HistoryEnd::of(stream, finish))
         })
     }
 

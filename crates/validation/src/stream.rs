@@ -9,8 +9,8 @@
 use std::{borrow::Cow, ops::ControlFlow};
 
 use super::peaks::{HousnerForces, PeakPairs};
-use dynamics::fem::{Change, Observer, View};
-use rocking::{scalar::GRAVITY, structure::Body};
+use dynamics::fem::{Change, HistoryOutcome, Observer, View};
+use rocking::{housner::topples, scalar::GRAVITY, structure::Body};
 
 /// u_g over gamma = 1 + a_v/g at the samples (m/s2): what a body beyond alpha must be able to fall
 /// against. It is largest at samples; without bound where the ground falls faster than the body.
@@ -87,6 +87,16 @@ pub struct ComparisonObserver<'a> {
 }
 
 impl<'a> ComparisonObserver<'a> {
+    /// Whether the body overturns in a history that ended so: one that stands at its end may fall
+    /// after it. None if the history failed.
+    pub fn overturned(&self, outcome: HistoryOutcome) -> Option<bool> {
+        match outcome {
+            HistoryOutcome::Overturned { .. } | HistoryOutcome::Stopped { .. } => Some(true),
+            HistoryOutcome::Completed => Some(topples(self.body, self.last.0, self.last.1)),
+            HistoryOutcome::WorkBound { .. } | HistoryOutcome::Unstable { .. } => None,
+        }
+    }
+
     /// Beside Housner's rotations (rad), as far as they shall be compared; `accel` is the record
     /// (m/s2).
     pub fn new(body: &'a Body<f64>, housner: &'a [f64], accel: &'a [f64]) -> Self {

@@ -154,7 +154,7 @@ pub(super) fn errors(
         ComparisonObserver::new(body, &trials[i].theta, &pushes[i]).with_forces(&trials[i].forces)
     });
     let error = |((stream, finish), trial): ((ComparisonObserver, Finish), _)| {
-        TrialErrors::of(trial, body, (&stream, &finish), effort)
+        TrialErrors::of(trial, (&stream, &finish), effort)
     };
     followed.into_iter().zip(trials).map(error).collect()
 }
@@ -171,7 +171,7 @@ pub(super) fn errors_watched(
     let stream = ComparisonObserver::new(body, &trial.theta, &push).with_forces(&trial.forces);
     let mut both = WatchedComparison { stream, watch };
     let finish = trial.case(body, springs, control).observe(&mut both);
-    TrialErrors::of(trial, body, (&both.stream, &finish), effort)
+    TrialErrors::of(trial, (&both.stream, &finish), effort)
 }
 
 /// Compares a history, and shows it to another observer, who decides how long it is followed.
@@ -201,17 +201,12 @@ impl TrialErrors {
     /// Of a history that was followed so, on a motion.
     fn of(
         trial: &ReferenceMotion,
-        body: &Body<f64>,
         (stream, finish): (&ComparisonObserver, &Finish),
         effort: &Effort,
     ) -> Self {
         finish.spend(effort);
         effort.judged(matches!(finish.outcome, HistoryOutcome::WorkBound { .. }));
-        let overturned = match finish.outcome {
-            HistoryOutcome::Completed => housner::topples(body, stream.last.0, stream.last.1),
-            HistoryOutcome::Overturned { .. } | HistoryOutcome::Stopped { .. } => true,
-            _ => return LOST,
-        };
+        let Some(overturned) = stream.overturned(finish.outcome) else { return LOST };
         if overturned != trial.overturns {
             return LOST;
         }
