@@ -47,10 +47,12 @@ def deck(name, numbers):
     text = text[
         text.index("# ---------------------------------------------------------------- tags") : text.index("@SOLVER@")
     ]
-    for key, value in (("@FRICTION@", "1e7"), ("@LEG@", str(LEG)), ("@SHEAR_SPRINGS@", "")):
-        text = text.replace(key, value)
+    text += (ROOT / "crates/decks/src/solver.py").read_text()
+    own = {"FRICTION": "1e7", "LEG": str(LEG), "SHEAR_SPRINGS": "", "FULL_STEPS": "", "LINE_SEARCH": ""}
+    for key, value in own.items():
+        text = text.replace(f"@{key}@", value)
     scope = dict(ops=ops, math=math, sys=sys, GRAVITY=GRAVITY) | numbers
-    exec(text + (ROOT / "crates/decks/src/solver.py").read_text(), scope)
+    exec(text, scope)
     return scope
 
 

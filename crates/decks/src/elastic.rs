@@ -212,7 +212,7 @@ impl ElasticDeck<'_> {
             ("Z_MIN", digits(self.peak(1, -1.0))),
             ("RECORD_NOTE", record_note(self.record)),
         ];
-        language.fill(template, &values, self.record, even.as_ref())
+        language.fill(template, &values, self.record, even.as_ref(), false)
     }
 
     /// x, z, mass, rotational inertia of every node.

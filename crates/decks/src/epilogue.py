@@ -1,7 +1,6 @@
 def follow(feet, accuracy, sample, aloft=None):
     """The motion through the record, or as far as steps converge: rows of t and what `sample` tells, and the steps."""
-    # TRBDF2 is L-stable: Newmark (1/2, 1/4) and HHT fail on springs this stiff, Newmark with damping spoils the answer.
-    analysis("TRBDF2")
+@INTEGRATOR@
     steps = Steps(feet, LANDING, RECORD_DT / STEPS_PER_SAMPLE, RISE, accuracy)
     steps.aloft = aloft
     before = now = [0.0, *sample()]
@@ -56,7 +55,7 @@ def main():
     print(f"within 1 %@OF@: {'yes' if good else 'no'}")
     if len(rows) < SAMPLES:
         stop(f"no convergence after {rows[-1][0]:g} s of {(SAMPLES - 1) * RECORD_DT:g} s; up to {(COMPARED - 1) * RECORD_DT:g} s it is judged above")
-    return 0 if good else 1
+@END@
 
 
 # ---------------------------------------------------------------- ground motion

@@ -12,8 +12,7 @@ set vertical {
 # The motion through the record, or as far as steps converge: rows of t and what `sample` tells.
 proc follow {feet} {
     global recordDt samples landing stepsPerSample rise accuracy
-    # TRBDF2 is L-stable: Newmark (1/2, 1/4) and HHT fail on springs this stiff, Newmark with damping spoils the answer.
-    solver TRBDF2 Transient
+@INTEGRATOR@
     steps::start $feet $landing [expr {$recordDt / $stepsPerSample}] $rise $accuracy
     set now [concat 0.0 [sample]]
     set before $now
@@ -91,4 +90,4 @@ if {[llength $rows] < $samples} {
     set judged [expr {($compared - 1) * $recordDt}]
     stop "no convergence after [lindex $rows end 0] s of [expr {($samples - 1) * $recordDt}] s; up to $judged s it is judged above"
 }
-exit [expr {1 - $good}]
+@END@

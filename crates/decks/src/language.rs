@@ -17,11 +17,13 @@ pub(super) struct Language {
     /// The same for steps of one size; the lines of its numbers.
     even: &'static str,
     even_numbers: [&'static str; 3],
-    /// The call that sets an integrator: its name and numbers.
+    /// The call that sets TRBDF2, and any integrator by its name and numbers.
+    trbdf2: &'static str,
     integrator: fn(&[String]) -> String,
     solver: &'static str,
-    /// What of the solver and the routine is otherwise where feet slip: as it is, and then.
-    sliding: [[&'static str; 2]; 2],
+    /// What the routine takes after a step that was refused: as it stands, and where no foot lands.
+    /// No mark: the routine is to be pasted into scripts as it stands.
+    pub(super) refused: [&'static str; 2],
     epilogue: &'static str,
     /// What ends the epilogue, and what stops it with a reason.
     ends: &'static str,
@@ -45,6 +47,7 @@ pub(super) static PYTHON: Language = Language {
     routine: super::STEPS,
     even: include_str!("steps_even.py"),
     even_numbers: ["STEP = ", "SUBSTEPS = ", "TOUCHES = "],
+    trbdf2: "analysis(\"TRBDF2\")",
     integrator: |arguments| match arguments {
         [name, numbers @ ..] => {
             format!("analysis({})", [&[format!("\"{name}\"")], numbers].concat().join(", "))
@@ -52,18 +55,11 @@ pub(super) static PYTHON: Language = Language {
         [] => String::new(),
     },
     solver: include_str!("solver.py"),
-    sliding: [
-        [
-            "    ops.algorithm(\"Newton\")\n",
-            "    # Full steps would lift a foot that slips, unless they take microseconds.\n    \
-                ops.algorithm(\"NewtonLineSearch\")\n",
-        ],
-        ["self.shortest if h > self.shortest else 0.25 * h\n", "0.25 * h\n"],
-    ],
+    refused: ["self.shortest if h > self.shortest else 0.25 * h", "0.25 * h"],
     epilogue: include_str!("epilogue.py"),
-    ends: "    return 0 if good else 1\n",
-    stops: ["    stop(\"", "\")\n"],
-    ends_refused: "    return 4 if good else 1\n",
+    ends: "    return 0 if good else 1",
+    stops: ["    stop(\"", "\")"],
+    ends_refused: "    return 4 if good else 1",
     prints: ["    print(\"", "\")\n"],
     shear_springs: include_str!("elastic_shear.py"),
     shear_list: ["SHEAR = {", "}"],
@@ -77,20 +73,14 @@ pub(super) static TCL: Language = Language {
     routine: include_str!("steps.tcl"),
     even: include_str!("steps_even.tcl"),
     even_numbers: ["set step ", "set substeps ", "set touches "],
+    trbdf2: "solver TRBDF2 Transient",
     integrator: |arguments| format!("solver {{{}}} Transient", arguments.join(" ")),
     solver: include_str!("solver.tcl"),
-    sliding: [
-        [
-            "    algorithm Newton\n",
-            "    # Full steps would lift a foot that slips, unless they take microseconds.\n    \
-                algorithm NewtonLineSearch\n",
-        ],
-        ["{$h > $shortest ? $shortest : 0.25 * $h}", "{0.25 * $h}"],
-    ],
+    refused: ["{$h > $shortest ? $shortest : 0.25 * $h}", "{0.25 * $h}"],
     epilogue: include_str!("epilogue.tcl"),
-    ends: "exit [expr {1 - $good}]\n",
-    stops: ["stop \"", "\"\n"],
-    ends_refused: "exit [expr {$good ? 4 : 1}]\n",
+    ends: "exit [expr {1 - $good}]",
+    stops: ["stop \"", "\""],
+    ends_refused: "exit [expr {$good ? 4 : 1}]",
     prints: ["puts \"", "\"\n"],
     shear_springs: include_str!("elastic_shear.tcl"),
     shear_list: ["set shear {", "}"],
@@ -98,6 +88,13 @@ pub(super) static TCL: Language = Language {
     separator: " ",
     end: "",
 };
+
+/// Why decks in steps that follow touches take TRBDF2.
+const WHY_TRBDF2: &str = "    # TRBDF2 is L-stable: Newmark (1/2, 1/4) and HHT fail on springs \
+                          this stiff, Newmark with damping spoils the answer.\n";
+/// Why the iteration of feet that slip takes a line search.
+const WHY_LINE_SEARCH: &str =
+    "    # Full steps would lift a foot that slips, unless they take microseconds.\n";
 
 impl Language {
     /// A list of two items or more.
@@ -124,7 +121,9 @@ impl Language {
             .join("\n")
     }
 
-    /// A template with its fragments, the record and these values in the place of `@NAME@`.
+    /// A template with its fragments, the record and these values in the place of `@NAME@`;
+    /// `slides` if the body slides and does not lift, so that no landing asks for the shortest
+    /// steps after one that was refused.
     ///
     /// # Errors
     /// Steps of one size by an integrator that OpenSees has not.
@@ -134,15 +133,30 @@ impl Language {
         values: &[(&str, String)],
         record: &Record,
         even: Option<&EvenSteps>,
+        slides: bool,
     ) -> Result<String, ExportError> {
-        let (routine, epilogue) = match even {
-            Some(even) => (self.even_routine(even), self.even_epilogue(even)?),
-            None => (self.routine.to_string(), self.epilogue.to_string()),
+        let routine = match (even, self.refused) {
+            (Some(even), _) => self.even_routine(even),
+            (None, [usual, sliding]) if slides => self.routine.replacen(usual, sliding, 1),
+            (None, _) => self.routine.to_string(),
         };
+        let end = even.map_or_else(|| self.ends.to_string(), |even| self.even_end(even));
+        let call = match even {
+            Some(even) => (self.integrator)(&even.in_opensees()?),
+            None => self.trbdf2.to_string(),
+        };
+        let why = if even.is_some() { "" } else { WHY_TRBDF2 };
+        let (full_steps, line_search) =
+            if slides { (WHY_LINE_SEARCH, "LineSearch") } else { ("", "") };
+        // the fragments first: they have marks of their own
         let fragments = [
-            ("ROUTINE", routine.as_str()),
-            ("SOLVER", self.solver),
-            ("EPILOGUE", epilogue.as_str()),
+            ("ROUTINE", routine.trim_end()),
+            ("SOLVER", self.solver.trim_end()),
+            ("EPILOGUE", self.epilogue.trim_end()),
+            ("END", &end),
+            ("INTEGRATOR", &format!("{why}    {call}")),
+            ("FULL_STEPS", full_steps),
+            ("LINE_SEARCH", line_search),
         ];
         let mut text = template.to_string();
         if let Some(why) = even.and_then(EvenSteps::warning) {
@@ -152,7 +166,7 @@ impl Language {
             text.insert_str(first, &format!("# {why}.\n"));
         }
         for (name, fragment) in fragments {
-            text = text.replace(&format!("@{name}@"), fragment.trim_end());
+            text = text.replace(&format!("@{name}@"), fragment);
         }
         let refusal = even.and_then(|even| self.refusal(even)).unwrap_or_default();
         let beyond = even.map(|even| even.ends).unwrap_or_default().beyond();
@@ -176,13 +190,6 @@ impl Language {
         ))
     }
 
-    /// The text of a deck of a body that slides and does not lift: no landing asks for the shortest
-    /// steps after one that was refused.
-    pub(crate) fn of_a_slide(&self, text: &str) -> String {
-        let [solver, routine] = self.sliding;
-        text.replacen(solver[0], solver[1], 1).replacen(routine[0], routine[1], 1)
-    }
-
     /// The routine of steps of one size, its numbers above it.
     fn even_routine(&self, even: &EvenSteps) -> String {
         let [step, substeps, touches] = self.even_numbers;
@@ -195,26 +202,18 @@ impl Language {
         )
     }
 
-    /// The epilogue with the integrator of steps of one size.
-    fn even_epilogue(&self, even: &EvenSteps) -> Result<String, ExportError> {
-        let call = (self.integrator)(&even.in_opensees()?);
-        let lines = self.epilogue.lines().filter(|line| !line.contains("TRBDF2 is L-stable"));
-        let line = |line: &str| match line.contains("TRBDF2") {
-            true => format!("    {call}\n"),
-            false => format!("{line}\n"),
-        };
-        let text: String = lines.map(line).collect();
+    /// What ends the epilogue of steps of one size.
+    fn even_end(&self, even: &EvenSteps) -> String {
         let refusal = self.refusal(even);
         let ends = if refusal.is_some() { self.ends_refused } else { self.ends };
-        let text = text.replace(self.ends, &format!("{}{ends}", refusal.unwrap_or_default()));
-        let Some(time) = even.ends.gives_up_s else { return Ok(text) };
+        let refusal = refusal.unwrap_or_default();
+        let Some(time) = even.ends.gives_up_s else { return format!("{refusal}{ends}") };
         let [before, after] = self.stops;
-        let reason = format!(
-            "the emulation of these steps gives up at {} s, where the deck ends: take another \
-             integrator or another step, longer ones too",
+        format!(
+            "{refusal}{before}the emulation of these steps gives up at {} s, where the deck ends: \
+             take another integrator or another step, longer ones too{after}",
             significant(time, 4)
-        );
-        Ok(text.replace(ends, &format!("{before}{reason}{after}")))
+        )
     }
 
     /// A line that prints why the springs are not to be used, if they are not.

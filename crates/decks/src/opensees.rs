@@ -95,6 +95,5 @@ fn fill(language: &Language, template: &str, model: &DeckModel) -> Result<String
         ("V_MIN", digits(e.v.1)),
         ("RECORD_NOTE", record_note(model.record)),
     ];
-    let text = language.fill(template, &values, model.record, model.even.as_ref())?;
-    Ok(if slides { language.of_a_slide(&text) } else { text })
+    language.fill(template, &values, model.record, model.even.as_ref(), slides)
 }

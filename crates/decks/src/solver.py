@@ -10,7 +10,7 @@ def analysis(*integrator, static=False):
     ops.system("UmfPack")
     # By displacement: forces of 1e12 N/m springs never meet a sensible force tolerance.
     ops.test("NormDispIncr", TOLERANCE, 30, 0)
-    ops.algorithm("Newton")
+@FULL_STEPS@    ops.algorithm("Newton@LINE_SEARCH@")
     ops.integrator(*integrator)
     ops.analysis("Static" if static else "Transient")
 

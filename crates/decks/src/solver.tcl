@@ -11,7 +11,7 @@ proc solver {integrator kind} {
     system UmfPack
     # By displacement: forces of 1e12 N/m springs never meet a sensible force tolerance.
     test NormDispIncr $tolerance 30 0
-    algorithm Newton
+@FULL_STEPS@    algorithm Newton@LINE_SEARCH@
     eval integrator $integrator
     analysis $kind
 }

@@ -9,7 +9,10 @@ mod stepping;
 use std::{collections::HashMap, process::Command};
 
 use super::*;
-use crate::stepping::EvenSteps;
+use crate::{
+    language::{PYTHON, TCL},
+    stepping::EvenSteps,
+};
 use dynamics::spring::{Design, Springs};
 use fixed_steps::Integrator;
 use rocking::{
@@ -243,6 +246,9 @@ fn the_stepping_routine_is_in_both_decks_as_it_stands() {
                 && routine.contains("pasted into a script of your own")
         );
         assert!(!routine.contains('@'));
+        // what a deck of a body that slides has otherwise is there to be replaced
+        let language = if format == DeckFormat::OpenSeesPy { &PYTHON } else { &TCL };
+        assert_eq!(routine.matches(language.refused[0]).count(), 1);
     }
 }
 
