@@ -70,10 +70,6 @@ impl TimedSeries {
 /// Another tool's part: what it did, or in one line why it is left out.
 pub type Peer = Result<TimedSeries, String>;
 
-/// Rounds for what takes less than a millisecond, and for what takes longer: a few seconds in all.
-pub const QUICK: [usize; 2] = [20, 3];
-/// The same for a few minutes.
-pub const FULL: [usize; 2] = [400, 40];
 /// OpenSees' steps per sample; the last one is its own reference.
 const OPENSEES_STEPS: [usize; 6] = [1, 10, 25, 50, 100, 200];
 /// Records that `tune validate` judges.

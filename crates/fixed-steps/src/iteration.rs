@@ -35,21 +35,9 @@ pub struct Iteration {
 }
 
 impl Iteration {
-    /// As our decks have it for OpenSees: Newton's, 30 at most, to a change of 2e-14 `size`, the
-    /// structure's (m).
-    pub fn tight(size: f64) -> Self {
-        Self { constant: 0, newton: 30, test: ConvergenceTest::Increment(2e-14 * size) }
-    }
-
     /// As scripts for OpenSees have it: Newton's, 20 at most, to a change of 1e-8 m.
     pub const SCRIPT: Self =
         Self { constant: 0, newton: 20, test: ConvergenceTest::Increment(1e-8) };
-
-    /// SAP2000's numbers: 10 with constant stiffness, then 40 of Newton's; to an unbalance of 1e-4
-    /// of this force, the weight for instance (N).
-    pub fn sap2000(force: f64) -> Self {
-        Self { constant: 10, newton: 40, test: ConvergenceTest::Unbalance(1e-4 * force) }
-    }
 }
 
 /// Which of its iterations: on one matrix, or each on its own.

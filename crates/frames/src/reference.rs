@@ -84,11 +84,6 @@ impl<'a> GroundAcceleration<'a> {
         Self { dt, accel, vertical: &[] }
     }
 
-    /// Ground at rest.
-    pub fn still(dt: f64) -> Self {
-        Self { dt, accel: &[], vertical: &[] }
-    }
-
     /// Time of the last sample (s).
     pub(crate) fn duration(&self) -> f64 {
         self.accel.len().max(self.vertical.len()).saturating_sub(1) as f64 * self.dt
@@ -139,13 +134,6 @@ impl Default for ReferenceOptions {
             max_events: 100_000,
             most_work: MOST_WORK,
         }
-    }
-}
-
-impl ReferenceOptions {
-    /// For references: errors of a step at 1e-11.
-    pub fn tight() -> Self {
-        Self { rtol: 1e-11, ..Self::default() }
     }
 }
 
@@ -229,9 +217,7 @@ pub struct Ledger {
     pub start: f64,
     /// Kinetic energy.
     pub kinetic: f64,
-    /// Potential energy.
-    pub potential: f64,
-    /// Taken by dampers.
+    /// Taken by dampers; for checks, as what slid.
     pub damped: f64,
     /// Taken by landings.
     pub landings: f64,
@@ -278,11 +264,6 @@ pub struct ElasticRocking {
 }
 
 impl ElasticRocking {
-    /// Coordinate i at the samples.
-    pub fn coordinate(&self, i: usize) -> Vec<f64> {
-        self.q.iter().map(|q| q[i]).collect()
-    }
-
     /// Whether a corner ever leaves the ground.
     pub fn lifts(&self) -> bool {
         self.events.iter().any(|event| event.what == What::Lift)

@@ -62,6 +62,7 @@ pub struct PlaneLanding {
     /// Touches and lifts of the new foot and of the old foot.
     pub changes: [usize; 2],
     /// Whether the landing was followed to its stated end: not if the feet chatter.
+    #[cfg(test)]
     pub complete: bool,
 }
 
@@ -246,6 +247,7 @@ impl LandingRun {
             rebound: self.rebound,
             air: self.air,
             changes: [self.changes[0], self.changes[1]],
+            #[cfg(test)]
             complete: self.time >= FOLLOWED * (1.0 - 1e-12),
         }
     }

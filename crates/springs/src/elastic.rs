@@ -118,13 +118,6 @@ pub struct ElasticAsked {
     pub program: FixedStepProgram,
 }
 
-impl ElasticAsked {
-    /// An error alone; the program is the usual one.
-    pub fn of(error: Asked) -> Self {
-        Self { error, most_hz: None, program: FixedStepProgram::usual() }
-    }
-}
-
 /// Springs under every corner of a structure, its members at work, as stiff as what is asked for
 /// needs, within an effort; what that cuts is told, with the best springs so far. `progress` is
 /// told the rungs judged and the least error so far.

@@ -44,8 +44,8 @@ pub struct GatherOptions {
     /// No figures
     #[arg(long)]
     no_figures: bool,
-    /// No progress, as for tune sweep; gathering shows none
-    #[arg(long = "quiet")]
+    /// As for tune sweep; gathering shows no progress
+    #[arg(long = "quiet", hide = true)]
     _quiet: bool,
 }
 

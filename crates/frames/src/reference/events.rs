@@ -257,7 +257,6 @@ impl<M: Mechanics> ReferenceWalk<'_, M> {
                 .abs();
         self.history.ledger = Ledger {
             kinetic,
-            potential,
             damped: work[0],
             input: work[1],
             slid: work[2],

@@ -10,7 +10,7 @@ use frames::{
 use nalgebra::DVector;
 use strong_motion::Record;
 
-use crate::piers::{free_rocking, light, shaken};
+use crate::piers::{free_rocking, light, shaken, tight};
 
 /// Samples between rows.
 const EVERY: usize = 5;
@@ -57,10 +57,10 @@ fn axial() -> Pier {
 
 #[test]
 fn free_rocking_with_axial_stiffness_a_chord_and_without_hops() {
-    let held_down = ReferenceOptions { hop: false, ..ReferenceOptions::tight() };
+    let held_down = ReferenceOptions { hop: false, ..tight() };
     for (name, pier, options) in [
-        ("free_axial", axial(), ReferenceOptions::tight()),
-        ("free_chord", axial().with_chord(12.0), ReferenceOptions::tight()),
+        ("free_axial", axial(), tight()),
+        ("free_chord", axial().with_chord(12.0), tight()),
         ("free_bilateral", light(), held_down),
     ] {
         assert_equal(&free_rocking(&pier, 0.0975, 5.0, &options), name, 501, 5.0);
@@ -70,14 +70,14 @@ fn free_rocking_with_axial_stiffness_a_chord_and_without_hops() {
 #[test]
 fn el_centro() {
     let accel = Record::el_centro().accel;
-    let held_down = ReferenceOptions { hop: false, ..ReferenceOptions::tight() };
+    let held_down = ReferenceOptions { hop: false, ..tight() };
     let soft = Pier::new([6e5, 12.0, 2.0], [1.5, 0.02], [6e4, 0.75]);
     for (name, pier, options) in [
-        ("el_centro", light(), ReferenceOptions::tight()),
-        ("el_centro_axial", axial(), ReferenceOptions::tight()),
-        ("el_centro_chord", axial().with_chord(12.0), ReferenceOptions::tight()),
+        ("el_centro", light(), tight()),
+        ("el_centro_axial", axial(), tight()),
+        ("el_centro_chord", axial().with_chord(12.0), tight()),
         ("el_centro_bilateral", light(), held_down),
-        ("el_centro_soft", soft, ReferenceOptions::tight()),
+        ("el_centro_soft", soft, tight()),
     ] {
         let (q, v) = (pier.leaning(0.0), DVector::zeros(pier.size()));
         let options = ReferenceOptions { duration: Some(8.0), ..options };

@@ -3,19 +3,19 @@
 use frames::{
     Mechanics, Pier,
     reference::{
-        Configuration, CornerContact, CornerSet, GroundAcceleration, PerturbedPair,
-        ReferenceOptions, at_rest, growth, rock,
+        Configuration, CornerContact, CornerSet, PerturbedPair, ReferenceOptions, at_rest, growth,
+        rock,
     },
 };
 use nalgebra::DVector;
 
-use crate::piers::{free_rocking, heavy, light, shaken};
+use crate::piers::{free_rocking, ground_at_rest, heavy, light, shaken, tight};
 use crate::portal::Portal;
 use crate::random::Random;
 
 /// No hops: the Lagrangian model.
 fn held_down() -> ReferenceOptions {
-    ReferenceOptions { hop: false, ..ReferenceOptions::tight() }
+    ReferenceOptions { hop: false, ..tight() }
 }
 
 /// sqrt of the ratio of the potential energies of the rigid body at the second and the first of its
@@ -74,11 +74,11 @@ fn a_stiff_pier_that_lands_on_one_corner_has_housners_restitution() {
     println!("Housner's e {housner}, relative errors at 80 and 320 Hz {errors:?}");
     assert!(errors[1].abs() < 1e-3 && errors[1].abs() < 0.5 * errors[0].abs(), "{errors:?}");
     // reported, not bounded
-    let hopping = restitution(&at_hertz(&heavy(), 320.0), 0.15, 4.0, &ReferenceOptions::tight());
+    let hopping = restitution(&at_hertz(&heavy(), 320.0), 0.15, 4.0, &tight());
     let axial = at_hertz(&heavy(), 80.0).with_axial(4e12, 0.02);
     println!(
         "with hops {hopping}; with k_a = 4e12 N/m {}",
-        restitution(&axial, 0.15, 4.0, &ReferenceOptions::tight())
+        restitution(&axial, 0.15, 4.0, &tight())
     );
 }
 
@@ -114,7 +114,7 @@ fn impacts_follow_the_formula() {
         let (sin, cos) = q[2].sin_cos();
         let v = DVector::from_vec(vec![side * b * sin * rate, side * b * cos * rate, rate, du]);
         let options = ReferenceOptions { duration: Some(0.01), max_events: 1, ..held_down() };
-        let history = rock(&pier, GroundAcceleration::still(0.01), (&q, &v), &options);
+        let history = rock(&pier, ground_at_rest(0.01), (&q, &v), &options);
         let landing = &history.events[0];
         let [before, after] = &landing.velocity;
         let u = landing.q[3];
@@ -199,8 +199,8 @@ fn a_standing_structure_presses_with_its_weight() {
 fn growth_is_a_property_of_the_history() {
     let pier = heavy();
     let (q, v) = (pier.leaning(0.15), DVector::zeros(4));
-    let options = ReferenceOptions { duration: Some(4.0), ..ReferenceOptions::tight() };
-    let ground = GroundAcceleration::still(0.01);
+    let options = ReferenceOptions { duration: Some(4.0), ..tight() };
+    let ground = ground_at_rest(0.01);
     let history = rock(&pier, ground, (&q, &v), &options);
     let at = |d: f64| {
         growth(
@@ -250,9 +250,9 @@ fn a_corner_that_lands_flat_slides_on() {
         (v[0], v[1]) = (-across, down);
         let history = rock(
             &pier,
-            GroundAcceleration::still(1e-3),
+            ground_at_rest(1e-3),
             (&q, &v),
-            &ReferenceOptions { duration: Some(1e-3), ..ReferenceOptions::tight() },
+            &ReferenceOptions { duration: Some(1e-3), ..tight() },
         );
         let landing = history.landings().next().expect("it lands");
         let corner = pier.corner(1, &landing.q, &landing.velocity[1]);

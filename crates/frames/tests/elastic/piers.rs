@@ -6,6 +6,16 @@ use frames::{
 };
 use nalgebra::DVector;
 
+/// For references: errors of a step at 1e-11.
+pub fn tight() -> ReferenceOptions {
+    ReferenceOptions { rtol: 1e-11, ..ReferenceOptions::default() }
+}
+
+/// Ground at rest.
+pub fn ground_at_rest(dt: f64) -> GroundAcceleration<'static> {
+    GroundAcceleration::horizontal(dt, &[])
+}
+
 /// The pier of theory.md: 600 t at 12 m, 4 m wide, 2 Hz, on a footing of 120 t.
 pub fn light() -> Pier {
     Pier::new([6e5, 12.0, 2.0], [2.0, 0.02], [1.2e5, 0.75])
@@ -26,7 +36,7 @@ pub fn free_rocking(
     let (q, v) = (pier.leaning(theta), DVector::zeros(pier.size()));
     rock(
         pier,
-        GroundAcceleration::still(0.01),
+        ground_at_rest(0.01),
         (&q, &v),
         &ReferenceOptions { duration: Some(seconds), ..*options },
     )

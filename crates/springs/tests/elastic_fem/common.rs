@@ -2,7 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use cases::Asked;
 use dynamics::spring::{Chain, Springs};
+use fixed_steps::FixedStepProgram;
 use frames::{
     answer::{ElasticAnswer, Reference},
     assembled::Assembled,
@@ -12,8 +14,13 @@ use frames::{
     structure::{ElasticStructure, PierSpec},
 };
 use rocking::scalar::GRAVITY;
-use springs::elastic::design::CornerSprings;
+use springs::elastic::{ElasticAsked, design::CornerSprings};
 use strong_motion::Record;
+
+/// An error alone; the program is the usual one.
+pub fn only(error: Asked) -> ElasticAsked {
+    ElasticAsked { error, most_hz: None, program: FixedStepProgram::usual() }
+}
 
 /// m, m_b (kg), h_b (m), f (Hz), k_a (N/m) of a pier 12 m high, 4 m wide, damped by 2 % across and
 /// along its column.

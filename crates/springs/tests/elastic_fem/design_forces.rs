@@ -17,12 +17,10 @@ use frames::{
 };
 use results::MOST_CHANGE;
 use rocking::{motion::largest_magnitude, scalar::GRAVITY, synthetic};
-use springs::elastic::{
-    ElasticAsked, design::springs, landing_speed, stand, trial::ElasticTrial, tune_within,
-};
+use springs::elastic::{design::springs, landing_speed, stand, trial::ElasticTrial, tune_within};
 use strong_motion::Record;
 
-use crate::common::{PIER, answer, el_centro, on_rigid_ground};
+use crate::common::{PIER, answer, el_centro, on_rigid_ground, only};
 
 const HEAVY_COLUMN: PierSpec = PierSpec {
     height_m: 14.0,
@@ -236,7 +234,7 @@ fn hold_forces_on_other_motions(column_mass_kg: f64, elements: Option<usize>) {
     let error = 0.02;
     let tuned = tune_within(
         &model,
-        ElasticAsked::of(Asked::new(0.002, Some(error))),
+        only(Asked::new(0.002, Some(error))),
         None,
         &Effort::unbounded(),
         &|_, _| (),

@@ -31,7 +31,7 @@ use springs::elastic::{
 use strong_motion::Record;
 
 use crate::common::{
-    MODERATE, Numbers, PIER, answer, el_centro, nrmse, on_rigid_ground, pier, portal, springs,
+    MODERATE, Numbers, PIER, answer, el_centro, nrmse, on_rigid_ground, only, pier, portal, springs,
 };
 
 fn tuned_for(
@@ -207,7 +207,7 @@ fn springs_are_stiffened_until_they_follow_the_record_to_its_end() {
     assert!((1200..1400).contains(&foretold), "{foretold}");
     let accuracy = 0.002;
     let asked = Asked { by: Yardstick::Histories, error: accuracy };
-    let tuned = tuned_for(&model, ElasticAsked::of(asked), (&record, reference)).unwrap();
+    let tuned = tuned_for(&model, only(asked), (&record, reference)).unwrap();
     assert!(tuned.reached, "{tuned:?}");
     let reference = tuned.reference.unwrap();
     assert_eq!((reference.foretold, reference.followed), (foretold, record.len()));
@@ -225,7 +225,7 @@ fn springs_are_stiffened_until_they_follow_the_record_to_its_end() {
     // as stiff as is allowed for, no further: up to what can be foretold
     let reference = Reference { followed: foretold, ..answer.histories.reference };
     let softer = tuned.softer_hz.unwrap();
-    let capped = ElasticAsked { most_hz: Some(softer.ceil()), ..ElasticAsked::of(asked) };
+    let capped = ElasticAsked { most_hz: Some(softer.ceil()), ..only(asked) };
     let soft = tuned_for(&model, capped, (&record, reference)).unwrap();
     assert!(soft.reached && soft.springs.omega_n_hz == softer && soft.softer_hz.is_none());
     assert_eq!(soft.reference.map(|reference| reference.followed), Some(foretold));
