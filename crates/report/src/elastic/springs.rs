@@ -14,7 +14,7 @@ use parameters::{
 };
 use results::Finding;
 use rocking::members::Tendon;
-use springs::elastic::suite::{ElasticErrors, LOOSER};
+use springs::{elastic::suite::ElasticErrors, suite::LOOSER};
 
 pub(super) fn springs_findings(parameters: &ElasticParameters) -> Option<Finding> {
     let a = parameters.assessment.as_ref().filter(|a| !a.reached)?;
