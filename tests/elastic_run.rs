@@ -164,7 +164,7 @@ fn decks_are_whole(folder: &TestFolder) {
         "halved, down to 1/16 of it",
         "an unbalance below ",
         "m2 has no weight",
-        "another kind (Rayleigh, one coefficient for both) errs otherwise",
+        "with another kind (Rayleigh, or one coefficient for both) they differ",
         &format!("| {ei:.16e} |"),
     ] {
         assert!(table.contains(holds), "{holds}: {table}");

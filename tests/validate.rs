@@ -291,7 +291,7 @@ fn a_component_of_files_with_several_is_chosen_and_vertical_motions_are_said_to_
         assert_eq!(stderr.contains("choose with --component"), more.is_empty(), "{stderr}");
         let told = stderr.lines().find(|line| line.starts_with("vertical motions are left out"));
         let told = told.unwrap();
-        assert!(told.contains("of 1 file") && told.contains("0.002783 g beside"), "{told}");
+        assert!(told.contains("in 1 file") && told.contains("0.002783 g beside"), "{told}");
         let pga = dir.json("out/validate.json")["records"][0]["pga_g"].as_f64().unwrap();
         assert!((pga * 9810.0 - mm_per_s2).abs() <= 0.05, "{pga}");
     }

@@ -95,7 +95,7 @@ def test_doubtful_structures_and_springs_are_warned_of() -> None:
         millimetres = gs.Structure.block(1700.0, 500.0, 310.0)
     said = [str(warning.message) for warning in told]
     assert len(said) == 2 and all(text.startswith("Structure.block: ") for text in said)
-    assert "1700 m high is none that was built" in said[0] and "a mean density of" in said[1]
+    assert "no structure 1700 m high was ever built" in said[0] and "a mean density of" in said[1]
     # told once
     assert pickle.loads(pickle.dumps(millimetres)) == copy.copy(millimetres) == millimetres
     light, heavy = gs.Structure.block(1.7, 0.5, 310.0), gs.Structure.block(1.7, 0.5, 3100.0)

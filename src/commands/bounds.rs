@@ -70,7 +70,8 @@ fn watch() {
                 std::process::exit(INTERRUPTED_CODE.into());
             }
             terminal::stderr(
-                "^C: the search ends, the best springs so far are kept; again to quit at once",
+                "^C: ending the search and keeping the best springs so far; press again to quit at \
+                    once",
             );
         };
         // where it cannot be watched ^C ends the program, as ever

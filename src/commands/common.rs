@@ -242,7 +242,7 @@ pub fn threads(jobs: Option<usize>) -> Result<(), CommandError> {
         return Err(CommandError::option("jobs", n, "give at most 1024 threads"));
     }
     let remedy = match n {
-        1 => "this machine starts no thread more: end other programs",
+        1 => "this machine cannot start another thread: end other programs",
         _ => "this machine does not start so many threads: give fewer",
     };
     let built = rayon::ThreadPoolBuilder::new().num_threads(n).build_global();

@@ -193,7 +193,7 @@ fn tell_vertical(all: &[(PathBuf, VerticalLeftOut)]) {
     let most = all.iter().max_by(|(_, a), (_, b)| share(a).total_cmp(&share(b)));
     let Some((file, most)) = most else { return };
     terminal::stderr(format_args!(
-        "vertical motions are left out, here of {} {}: of {} {} g beside {} g across{}",
+        "vertical motions are left out, here in {} {}: {} has {} g beside {} g across{}",
         all.len(),
         if all.len() == 1 { "file" } else { "files" },
         one_line(&file.display().to_string()),

@@ -281,9 +281,9 @@ impl ElasticDeck<'_> {
         (!all.is_empty()).then(|| {
             format!(
                 "Damping of the beams: proportional to the stiffness of each, with a coefficient \
-                 for axial deformation and another one for bending ({all}){here}. What is measured \
-                 of these springs holds for it: another kind (Rayleigh, one coefficient for both) \
-                 errs otherwise."
+                 for axial deformation and another one for bending ({all}){here}. The errors \
+                 measured for these springs hold for this damping; with another kind (Rayleigh, or \
+                 one coefficient for both) they differ."
             )
         })
     }
@@ -292,7 +292,7 @@ impl ElasticDeck<'_> {
     fn damping_note(&self, damped: f64) -> String {
         let here = match damped < 1.0 {
             true => format!(
-                ", below {damped:.3} of it, for OpenSees' damping objects act too strongly under \
+                ", below {damped:.3} of it, since OpenSees' damping objects act too strongly under \
                  HHT"
             ),
             false => ", by OpenSees' damping objects (SecStif)".into(),

@@ -158,7 +158,8 @@ impl EvenSteps {
             Some(format!("{} (median){most} on {histories}{on}{lost}", percent((*median)?)))
         });
         let told = told.collect::<Vec<_>>().join("; ");
-        (!told.is_empty()).then(|| format!("such steps err in the largest displacement by {told}"))
+        (!told.is_empty())
+            .then(|| format!("with such steps the largest displacement errs by {told}"))
     }
 
     /// Where in a step forces are taken: 1 + alpha of HHT, else its end.

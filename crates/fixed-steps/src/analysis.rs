@@ -183,7 +183,7 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
     /// the straight line. The observer may end it.
     ///
     /// # Errors
-    /// The structure finds no rest to begin from.
+    /// The structure has no equilibrium to begin from.
     pub fn follow(
         &self,
         mut show: impl FnMut(usize, &M::Vector) -> ControlFlow<()>,

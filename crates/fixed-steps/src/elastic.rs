@@ -99,7 +99,7 @@ impl FixedStepAnalysis<'_, FixedStepFrame<'_>> {
     /// The frame's coordinates at the record's samples.
     ///
     /// # Errors
-    /// The frame finds no rest to begin from.
+    /// The frame has no equilibrium to begin from.
     pub fn history(&self) -> Result<FixedStepFrameHistory, EquilibriumError> {
         let mut coordinates = Vec::with_capacity(self.accel.len());
         let (outcome, work) = self.follow(|_, q| {

@@ -25,7 +25,7 @@ pub trait FixedStepModel {
     /// At rest on all feet, settled under its weight.
     ///
     /// # Errors
-    /// It finds no rest.
+    /// It has no equilibrium.
     fn standing(&self) -> Result<(Self::Vector, Self::Feet), EquilibriumError>;
 
     /// The places of its feet at q.

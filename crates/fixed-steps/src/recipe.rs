@@ -116,7 +116,7 @@ pub struct FixedStepSprings {
 pub enum FixedStepSpringsError {
     /// A step that is none.
     #[error(
-        "step: {step:?} s is no time step; give a finite number greater than zero, for instance \
+        "step: {step:?} s is not a time step; give a finite number greater than zero, for example \
          0.001"
     )]
     Step {

@@ -115,7 +115,7 @@ pub struct ElasticAnswer {
 pub enum AnswerError {
     #[error(transparent)]
     Rest(#[from] EquilibriumError),
-    #[error("the structure finds no rest on rigid ground ({0}); stiffen its columns")]
+    #[error("the structure has no equilibrium on rigid ground ({0}); stiffen its columns")]
     RestOnGround(#[from] RestError),
 }
 

@@ -165,7 +165,7 @@ impl<'a> ElasticAnalysis<'a> {
     /// Run the case and keep its history.
     ///
     /// # Errors
-    /// The structure finds no rest to begin from, or springs or start do not fit it.
+    /// The structure has no equilibrium to begin from, or springs or start do not fit it.
     pub fn simulate(&self) -> Result<ElasticHistory, EquilibriumError> {
         self.fits()?;
         let model = model::ElasticModel::new(self.frame, self.springs);

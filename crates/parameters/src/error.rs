@@ -15,8 +15,8 @@ pub enum ParametersError {
     #[error("{path}: cannot be read ({source}); give the parameters.json that `tune run` wrote")]
     Read { path: String, source: std::io::Error },
     #[error(
-        "{path}: these are springs of an elastic structure, which `tune export` and `tune verify` \
-         take and this command does not; give those of a rigid body"
+        "{path}: these are springs of an elastic structure, which only `tune export` and `tune \
+         verify` take; give the parameters.json of a rigid body"
     )]
     Elastic { path: String },
     #[error("{path}: {}, and let `tune run` find its springs", NO_LEGS)]
@@ -26,8 +26,8 @@ pub enum ParametersError {
     #[error("{path}: {chain}.{name} is {value:?}; give a finite number{bound}")]
     Value { path: String, chain: &'static str, name: &'static str, value: f64, bound: &'static str },
     #[error(
-        "{path}: {chain}.{name} is {value:?}, {times:.1e} times {scale}; nothing computed from \
-         that means anything, give k1, k2 in N/m, m2 in kg, c in N s/m"
+        "{path}: {chain}.{name} is {value:?}, {times:.1e} times {scale}: no result would mean \
+         anything; give k1 and k2 in N/m, m2 in kg, c in N s/m"
     )]
     Absurd {
         path: String,

@@ -12,7 +12,7 @@ type PeakRow =
 pub(crate) const FRICTION: &str = "friction needed";
 /// The row of how far from where they stood feet have landed, when the top's displacement is
 /// largest.
-const MOVED: &str = "  of it feet landed elsewhere";
+const MOVED: &str = "  of it by moved feet";
 /// What rows of parts that are largest at times of their own begin with.
 pub(crate) const LARGEST: &str = "largest by";
 /// What rows of parts of the top's displacement begin with.

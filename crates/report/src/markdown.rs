@@ -55,10 +55,10 @@ pub(crate) fn sections(run: &Run) -> Vec<Section> {
             id: "peaks",
             title: "Largest displacements".into(),
             text: vec![
-                "Of the highest point, against the ground. By rocking: what the rotation of its \
-                    base alone moves it; by bending: how far it is across the axis of its base; \
-                    feet landed elsewhere: how far the feet of its base are from where they stood, \
-                    without sliding. Each is the largest of all bases, at its own time."
+                "Displacements of the highest point relative to the ground. By rocking: from the \
+                    rotation of its base alone. By bending: across the axis of its base. By moved \
+                    feet: how far from where they stood the feet of its base landed, without what \
+                    they slid. Each value is the largest over all bases, at its own time."
                     .into(),
             ],
             table: Some(table),
@@ -85,9 +85,9 @@ pub(crate) fn sections(run: &Run) -> Vec<Section> {
             title: "Accuracy, and on what".into(),
             text: vec![
                 format!("{} Measured in this run.", sentence(&accuracy.sentence())),
-                "NRMSE is the root mean square of the difference from the reference over the root \
-                    mean square of the reference; only motions count that can be followed one to \
-                    one."
+                "NRMSE is the root mean square of the difference from the reference, divided by \
+                    the root mean square of the reference; only motions that can be followed one \
+                    to one count."
                     .into(),
             ],
             table: Some(accuracy.table()),
@@ -140,9 +140,12 @@ pub fn forces_to_design_with(run: &Run) -> Option<Section> {
         "fixed to the ground",
     ];
     let below = match forces.below_hz {
-        Some(hz) => format!("Largest of what is slower than {} Hz; {OF_SOLES}", significant(hz, 3)),
+        Some(hz) => {
+            let hz = significant(hz, 3);
+            format!("Largest value after a low-pass filter at {hz} Hz; {OF_SOLES}")
+        }
         None if matches!(run.parameters, FiledParameters::Elastic(_)) => {
-            format!("A column without mass has no waves: its forces are as they are; {OF_SOLES}")
+            format!("Columns without mass carry no waves: their forces are unfiltered; {OF_SOLES}")
         }
         None => "Largest between impacts: an impact's impulse is not among them.".into(),
     };

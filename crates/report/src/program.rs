@@ -147,9 +147,9 @@ impl ProgramReport {
             asked: row.asked,
             elastic: told.elastic,
             stiffer: row.stiffer_for_earthquakes.then_some(
-                "The springs are stiffer than the closed form has them: earthquake-like motions \
-                    sway the structure before it lifts, and their peaks err less on such springs; \
-                    this integrator ends the motions that they ring in.",
+                "The springs are stiffer than those of the closed form: on earthquake-like motions \
+                    the structure sways before it lifts, and peaks err less on stiffer springs; \
+                    this integrator damps their ringing.",
             ),
         }
     }
@@ -193,14 +193,15 @@ impl ProgramReport {
         let law = match self.elastic {
             // its medians lie below and far above the law of a rigid body
             true => {
-                "A program with steps of one size lands somewhere within a step. What that makes \
-                    an elastic structure err follows no law: it is measured. Of the springs that \
-                    were tried these lose fewest motions, then err least."
+                "In a program with steps of one size a foot lands somewhere within a step. The \
+                    resulting error of an elastic structure follows no simple law and is measured. \
+                    Of the springs tried, these lose the fewest motions and, among equals, have \
+                    the smallest errors."
             }
             false => {
-                "A program with steps of one size lands somewhere within a step, and errs by 13 p \
-                    dt in the median whatever its springs. These are as stiff, and give back as \
-                    little of a landing, as the step has use for."
+                "In a program with steps of one size a foot lands somewhere within a step, which \
+                    causes a median error of 13 p dt whatever the springs. These springs are as \
+                    stiff, and rebound as little, as is useful at this step."
             }
         };
         Section {

@@ -297,7 +297,7 @@ fn of_members(structure: &Structure, record: &Record, with: &MemberHistory) -> F
     }
 }
 
-/// How far beside its place a body with friction comes to rest, if it does.
+/// How far from where it stood a body with friction comes to rest, if it does.
 fn left_aside(structure: &Structure, with: &MemberHistory) -> Option<Finding> {
     let motion = &with.history.motion;
     let (left_m, theta) = (motion.u.last()?.abs(), motion.theta.last()?.abs());

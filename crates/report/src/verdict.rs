@@ -81,13 +81,14 @@ impl Run {
         })
     }
 
-    /// How far beside its place a body that rocks and slips comes to rest.
+    /// How far from where it stood a body that rocks and slides comes to rest.
     fn left_aside(&self) -> String {
         let left = self.findings.iter().find_map(|filed| match filed.finding {
             Finding::LeftAside { left_m } => Some(left_m),
             _ => None,
         });
-        let words = |left| format!("; it slips as well, and ends {} aside", quantity(left, "m"));
+        let words =
+            |left| format!("; it also slides and ends {} from where it stood", quantity(left, "m"));
         left.map_or(String::new(), words)
     }
 

@@ -70,7 +70,7 @@ pub enum Finding {
     CutAtLargest {
         time_s: f64,
     },
-    /// It rocks on feet with friction, and ends beside its place.
+    /// It rocks on feet with friction, and ends elsewhere than it stood.
     LeftAside {
         left_m: f64,
     },

@@ -94,7 +94,7 @@ pub enum MembersError {
     #[error("{name} is {value}; give a finite number{bound}")]
     Value { name: &'static str, value: f64, bound: &'static str },
     #[error(
-        "{name} is {value:?}, {times:.1e} times {unit}; nothing computed from that means anything, \
+        "{name} is {value:?}, {times:.1e} times {unit}: no result would mean anything; \
          check the unit"
     )]
     Absurd { name: &'static str, value: f64, times: f64, unit: &'static str },

@@ -131,9 +131,9 @@ impl Assessment {
         let aimed = stiffness_search::MARGIN * self.accuracy;
         let error = weight::restitution_error(l.alpha, l.mass_share, l.omega_n_over_p, LEAST_LEAN);
         let landings = format!(
-            "on which the weight leaves landings, from {LEAST_LEAN} alpha on, an error of \
-             {error:.0e} at most (theory): it moves a history of \
-             sensitivity {PREDICTABLE} by no more than {} of the accuracy",
+            "at which the weight on the old foot causes an error of at most {error:.0e} in \
+             landings from {LEAST_LEAN} alpha on (theory): such an error moves a history of \
+             sensitivity {PREDICTABLE} by at most {} of the accuracy",
             stiffness_search::MARGIN
         );
         let on = |suite, name: &str| {
@@ -154,11 +154,11 @@ impl Assessment {
         ];
         match all.into_iter().max_by(|a, b| a.0.total_cmp(&b.0)) {
             Some((share, decides)) if share <= 1.0 => {
-                format!("the softest of the ladder {decides}")
+                format!("the softest rung of the stiffness ladder {decides}")
             }
             _ => format!(
-                "the best of those tried: none keeps every error, of gentle landings too, within \
-                 {} of what is allowed",
+                "the best of those tried: none keeps every error, including that of gentle \
+                 landings, within {} of what is allowed",
                 stiffness_search::MARGIN
             ),
         }

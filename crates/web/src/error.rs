@@ -36,7 +36,8 @@ pub enum WebError {
     #[error("list of variations: {0}")]
     Variations(#[from] serde_json::Error),
     #[error(
-        "case.toml: {key} is for the program alone, a page does not search so long; leave it out"
+        "case.toml: {key} works only in the program: the page runs no search that long; leave it \
+            out"
     )]
     ForTheProgram { key: &'static str },
     #[error("pulse: {name} is {value:?}; give {least} to {most} {unit}")]
@@ -47,8 +48,8 @@ pub enum WebError {
     )]
     FixedStepElastic,
     #[error(
-        "there are no springs for this geometry; slenderness alpha is to be between 0.005 and 0.9 \
-            rad"
+        "there are no springs for this geometry; the slenderness alpha must lie between 0.005 and \
+            0.9 rad"
     )]
     NoSprings,
 }

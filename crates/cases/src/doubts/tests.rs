@@ -32,7 +32,7 @@ fn a_mass_in_tonnes_is_doubted() {
     assert!(mass == 32.0 && (kg_per_m3 - 32.0 / (3.2 * 1.69)).abs() < 1e-9);
     assert_eq!(
         transformer[0].message(),
-        "mass_kg = 32 makes a block of 5.917 kg/m3, as deep as wide"
+        "mass_kg = 32 gives a block of 5.917 kg/m3 if it is as deep as wide"
     );
     assert_eq!(transformer[0].remedy(), "if it is 32 t, write mass_kg = 32e3");
     assert_eq!(block("height_m = 1.6\nwidth_m = 1.3\nmass_kg = 32e3\n"), []);

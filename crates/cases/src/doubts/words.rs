@@ -33,10 +33,13 @@ impl Doubt {
             }
             Self::Tonnes { mass, kg_per_m3 } => {
                 let [mass, density] = [*mass, *kg_per_m3].map(figures);
-                format!("mass_kg = {mass} makes a block of {density} kg/m3, as deep as wide")
+                format!(
+                    "mass_kg = {mass} gives a block of {density} kg/m3 if it is as deep as \
+                        wide"
+                )
             }
             Self::Height { height_m } => {
-                format!("a structure {} m high is none that was built", figures(*height_m))
+                format!("no structure {} m high was ever built", figures(*height_m))
             }
             Self::LightPart { key, mass_kg, all_kg } => format!(
                 "{key} = {} is next to nothing in a structure of {} kg",

@@ -28,8 +28,8 @@ pub type Support = Option<[f64; 2]>;
 pub enum EquilibriumError {
     /// Newton's method did not arrive.
     #[error(
-        "frame: it finds no rest under its weight, leaning by {lean} rad: it falls over, or its \
-         columns buckle; lean it less, or stiffen them"
+        "frame: no equilibrium under its weight at a lean of {lean} rad: it falls over or its \
+         columns buckle; lean it less or stiffen the columns"
     )]
     NoRest {
         /// How far it was to lean (rad).

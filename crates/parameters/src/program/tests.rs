@@ -153,7 +153,7 @@ fn settings_that_were_measured_are_the_advice() {
 fn no_step_is_promised_where_errors_are_not_the_steps() {
     let advice = row(0.01, Some(0.25)).not_to_be_used().unwrap().advice;
     assert_eq!(advice, ProgramAdvice::OffLaw { times: 25.0 });
-    assert!(advice.to_string().starts_with("that is 25 times what the step alone makes"));
+    assert!(advice.to_string().starts_with("this is 25 times the error of the step alone"));
 }
 
 /// One motion in ten that errs by much more than the median is told of springs that are of use.

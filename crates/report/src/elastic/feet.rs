@@ -8,7 +8,7 @@ use results::Finding;
 /// Share of the feet's distance above which it is said that it has changed.
 const LEAST_APART: f64 = 1e-3;
 
-/// Share of it above which it is said that the structure stands beside its place.
+/// Share of it above which it is said that the structure no longer stands where it stood.
 const LEAST_ASIDE: f64 = 1e-2;
 
 impl ElasticParts<'_> {

@@ -64,7 +64,7 @@ fn errors_of_the_record_and_of_motions_are_told_apart() {
 fn the_law_of_a_rigid_body_is_told_of_one_alone() {
     let [rigid, elastic] = [false, true].map(|elastic| report(elastic).section());
     assert_eq!(elastic.title, "Springs for OpenSees with even steps of 5 ms");
-    assert!(rigid.text[0].contains("errs by 13 p dt"), "{}", rigid.text[0]);
+    assert!(rigid.text[0].contains("causes a median error of 13 p dt"), "{}", rigid.text[0]);
     assert!(!elastic.text[0].contains("13 p dt"), "{}", elastic.text[0]);
     let of_record = &elastic.table.unwrap().rows[2];
     assert_eq!(of_record[..2], ["measured on this record", "0.089"]);

@@ -82,8 +82,9 @@ fn five_digits(hz: f64) -> String {
 }
 
 /// What m2 is: there is no such mass in the structure.
-pub(crate) const ABSORBER: &str = "m2 is no part of the structure: a fictitious mass between foot \
-    and ground, without weight, that takes in a landing the momentum which Housner's rule takes.";
+pub(crate) const ABSORBER: &str = "m2 is not part of the structure: it is a fictitious mass \
+    without weight between foot and ground, which takes up in a landing the momentum that \
+    Housner's rule removes.";
 
 /// The match: name, Housner, and each springs.
 pub(crate) fn comparison(p: &Parameters) -> Table {
@@ -123,7 +124,7 @@ fn match_rows(m: &Match, all: &[Option<&Match>]) -> Vec<Vec<String>> {
             count(m.impacts_fem_firm)
         }),
         row(
-            "all, with the tremble of a body coming to rest",
+            "all impacts, including those of a body coming to rest",
             m.impacts_housner.to_string(),
             &|m| m.impacts_fem.to_string(),
         ),

@@ -66,7 +66,8 @@ impl Finding {
             }
             Self::LandingsUnfinished { .. } => "allow other springs: --max-hz, --accuracy",
             Self::Sliding { .. } => {
-                "give a shear key, or let feet slide: [friction]; --friction sets the ground's"
+                "add a shear key, or let the feet slide ([friction]); --friction sets what the \
+                    ground offers"
             }
             Self::TooStocky { restitution, friction_needed, .. } => {
                 of_landing(*restitution, *friction_needed)
@@ -103,7 +104,7 @@ impl Finding {
                 "judge the springs on records of your own"
             }
             Self::Sliding { .. } => {
-                "give a shear key: feet do not slide here; --friction sets what the ground offers"
+                "add a shear key: feet do not slide here; --friction sets what the ground offers"
             }
             _ => return self.remedy(),
         };
@@ -114,8 +115,8 @@ impl Finding {
     fn remedy_of_forces(&self) -> Option<String> {
         let text = match self {
             Self::ForceWithheld { springs_err: Some(_), .. } => {
-                "first take springs that follow Housner (see the accuracy), or forces of another \
-                    kind of model"
+                "first find springs that follow Housner (see the accuracy), or take forces from \
+                    another kind of model"
             }
             Self::ForceWithheld { housner: Some(_), .. } => {
                 "design for the larger, or take stiffer springs: --accuracy"
@@ -169,9 +170,9 @@ impl Finding {
                     on, without anything to compare them with."
             }
             Self::IllConditioned { .. } => {
-                "A change far smaller than what is unknown of a real structure makes another \
-                    history of it. No two models, and no two tests, agree on it one to one, \
-                    whatever the springs."
+                "A change far below the uncertainty of a real structure gives another history. No \
+                    two models and no two tests agree on this history one to one, whatever the \
+                    springs."
             }
             Self::AccuracyMissed { .. } | Self::PeaksMissed { .. } => {
                 "These are the best springs found within what was allowed; the table of accuracy \
@@ -224,8 +225,8 @@ impl Finding {
                     slide, and rock less."
             }
             Self::HardlyPresses { .. } => {
-                "A little more vertical motion, or a faster rotation, and it would fly: then his \
-                    equation ends, and springs alone tell what follows."
+                "With a little more vertical motion or a faster rotation the body would leave the \
+                    ground: there Housner's equation ends, and only the springs tell what follows."
             }
             Self::SinksOnSprings { .. } => {
                 "A body on rigid ground lifts as soon as its weight is overcome. On springs the \
@@ -233,7 +234,8 @@ impl Finding {
                     sink as far."
             }
             Self::WalksOnSprings { .. } => {
-                "Feet that bounce land beside where they stood. Nothing of it is the structure's."
+                "Feet that bounce land beside where they stood. The walk belongs to the springs, \
+                    not to the structure."
             }
             Self::FreeFlight { .. } => {
                 "Housner's equation would have to pull the foot down there; the finite elements \

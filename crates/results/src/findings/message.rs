@@ -23,11 +23,11 @@ fn on(model: FindingModel) -> &'static str {
 /// Part by which largest rotations on springs and without differ, both of which are then said.
 const SHARES_DIFFER: f64 = 0.05;
 
-/// Share of overturning below which a body that lifts does not rock to speak of.
+/// Share of overturning below which a body that lifts hardly rocks.
 pub const HARDLY_ROCKS: f64 = 1e-4;
 
 /// What is said of such a one.
-const HARDLY: &str = "it lifts, but does not rock to speak of";
+const HARDLY: &str = "the structure lifts but hardly rocks";
 
 fn s(time: f64) -> String {
     format!("{} s", significant(time, 4))
@@ -98,19 +98,22 @@ impl Finding {
     fn slip(&self) -> Option<String> {
         Some(match self {
             Self::Slides { friction, uplift_g, largest_m, left_m } => format!(
-                "it slides and does not rock: {} g lifts it, and friction of {} gives way before; \
-                    it moves {} at most, and ends {} beside its place",
+                "the structure slides and does not rock: uplift takes {} g, but friction of {} \
+                    gives way first; it slides by {} at most and ends {} from where it stood",
                 significant(*uplift_g, 3),
                 significant(*friction, 3),
                 quantity(*largest_m, "m"),
                 quantity(*left_m, "m")
             ),
             Self::CutAtLargest { time_s } => format!(
-                "what is taken of the record ends at {}, when the displacement is largest",
+                "the part of the record used ends at {}, just when the displacement is largest",
                 s(*time_s)
             ),
             Self::LeftAside { left_m } => {
-                format!("it slips as well, and ends {} beside its place", quantity(*left_m, "m"))
+                format!(
+                    "the structure also slides and ends {} from where it stood",
+                    quantity(*left_m, "m")
+                )
             }
             _ => return None,
         })
@@ -214,12 +217,15 @@ impl Finding {
                 let nowhere = match holds_to_s {
                     Some(_) => "",
                     None => {
-                        " (NRMSE), at no time by more than 5 % of its largest displacement: \
-                        peaks are predictable, a history one to one is not"
+                        " (NRMSE), but at no time by more than 5 % of its largest displacement: \
+                        peaks are predictable, the history itself is not"
                     }
                 };
                 let most = significant(100.0 * most, 2);
-                format!("ill-conditioned: 0.1 % of {what} moves it by {most} %{nowhere}")
+                format!(
+                    "ill-conditioned: a change of the {what} by 0.1 % moves the history by \
+                        {most} %{nowhere}"
+                )
             }
             Self::ForetoldUpTo { time_s, later_forces, .. } => format!(
                 "{}after t = {} a small change of the motion has grown more than 30-fold",
@@ -235,11 +241,13 @@ impl Finding {
                 let cell = |x: Option<f64>| x.map_or("overturned".into(), percent);
                 let fallen = match overturned {
                     [0, 0] => String::new(),
-                    [reference, springs] => format!("; {reference} and {springs} overturn"),
+                    [reference, springs] => {
+                        format!("; {reference} overturn on rigid ground, {springs} on springs")
+                    }
                 };
                 format!(
-                    "{motions} motions within {} of the record rotate it by {} of overturning \
-                        (median), {} (90 %); on springs by {}, {}{fallen}",
+                    "in {motions} motions within {} of the record the largest rotation is {} of \
+                        overturning (median), {} (90 %); on springs {}, {}{fallen}",
                     percent(*change),
                     cell(median_ratio[0]),
                     cell(p90_ratio[0]),
@@ -272,13 +280,15 @@ impl Finding {
                 let due = significant(*asked, 4);
                 let [low, high] = [lowest, highest].map(|x| significant(*x, 4));
                 match (lowest + highest).is_finite() {
-                    true => format!("landings have a restitution of {low} to {high}, {due} is due"),
-                    false => format!("no test landing shows the restitution {due} that is due"),
+                    true => {
+                        format!("landings have a restitution of {low} to {high} instead of {due}")
+                    }
+                    false => format!("no test landing has the required restitution, {due}"),
                 }
             }
             Self::RestitutionOutOfReach { asked, share, least, most } => format!(
-                "restitution {} is {} of equation 2's: farther from it than springs were ever \
-                    measured, which is {} to {}",
+                "restitution {} is {} times equation 2's; springs were tested only from {} to {} \
+                    times",
                 significant(*asked, 4),
                 significant(*share, 3),
                 significant(*least, 3),
@@ -293,8 +303,8 @@ impl Finding {
                 let names = ["equation 2's springs", "springs that bounce for it"];
                 let [chosen, other] = if *equation_2 { [0, 1] } else { [1, 0] };
                 format!(
-                    "restitution {} is {} of equation 2's: {} ({}) err less, both errors \
-                        together, than {} ({})",
+                    "restitution {} is {} times equation 2's: {} ({}) have a smaller product of \
+                        both errors than {} ({})",
                     significant(*asked, 4),
                     significant(*share, 4),
                     names[chosen],
@@ -304,7 +314,7 @@ impl Finding {
                 )
             }
             Self::LandingsUnfinished { finished, all } => {
-                format!("{} of {all} test landings came to no end on these springs", all - finished)
+                format!("{} of {all} test landings did not finish on these springs", all - finished)
             }
             Self::MembersBeside { .. } => {
                 "springs are tuned for the structure without its dampers, tendon and friction"
@@ -339,15 +349,14 @@ impl Finding {
                 let of = if *histories == 1 { "history" } else { "histories" };
                 let then =
                     if *left_out { "their motions are left out" } else { "they count as lost" };
-                format!("{histories} {of} of the search met the bound on a history's steps: {then}")
+                format!("{histories} {of} of the search reached the bound on steps: {then}")
             }
             Self::NearMotionsLeftOut { all: true, .. } => {
-                "motions near the record are left out: beyond a bound on steps".into()
+                "motions near the record are left out: they need more steps than allowed".into()
             }
             Self::NearMotionsLeftOut { motions, .. } => {
                 format!(
-                    "{motions} motions near the record met the bound on a history's steps, and are \
-                        left out"
+                    "{motions} motions near the record reached the bound on steps and are left out"
                 )
             }
             _ => return None,

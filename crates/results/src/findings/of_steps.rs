@@ -148,13 +148,13 @@ impl fmt::Display for ProgramAdvice {
             ),
             Self::OffLaw { times } => write!(
                 f,
-                "that is {times:.0} times what the step alone makes, so that a shorter one may \
-                    not help: take OpenSees' deck, whose steps follow touches"
+                "this is {times:.0} times the error of the step alone, so a shorter step may not \
+                    help: take OpenSees' deck, whose steps follow touches"
             ),
             Self::ForOpenSees => {
                 write!(f, "give --for opensees-even, whose integrator loses least")
             }
-            Self::AnotherStep => write!(f, "try another --step, longer ones too"),
+            Self::AnotherStep => write!(f, "try another --step, also a longer one"),
             Self::OtherDeck => write!(f, "take OpenSees' deck: no other has its dampers or tendon"),
         }
     }
@@ -189,8 +189,8 @@ impl Finding {
                     None => "loses most histories".into(),
                 };
                 format!(
-                    "{program} at {} {errs} on {motions} earthquake-like motions, by the step \
-                        alone a history by {}",
+                    "{program} at {} {errs} on {motions} earthquake-like motions; the step alone \
+                        makes a history err by {}",
                     quantity(*step_s, "s"),
                     percent(*floor)
                 )
@@ -208,15 +208,15 @@ impl Finding {
                 )
             }
             Self::ProgramStepForAccuracy { step_s, needed_s, accuracy } => format!(
-                "a history within {} (NRMSE) takes steps of {}: at {} no springs come so near",
+                "a history within {} (NRMSE) needs steps of {}: with steps of {} no springs reach \
+                    it",
                 significant(*accuracy, 3),
                 quantity(*needed_s, "s"),
                 quantity(*step_s, "s")
             ),
             Self::ProgramRestitution { .. } => {
-                "no springs for fixed time steps: those have equation 2's restitution, not another \
-                    one"
-                .into()
+                "no springs for fixed time steps: they exist only for equation 2's restitution"
+                    .into()
             }
             _ => return None,
         })
@@ -233,9 +233,11 @@ impl Finding {
             }
             Self::ProgramNotToBeUsed { advice, .. } => return Some(advice.to_string()),
             Self::ProgramLoses { csi: true, .. } => {
-                "check that its history ends; else another --step, longer ones too"
+                "check that the history runs to its end; else try another --step, also a longer one"
             }
-            Self::ProgramLoses { .. } => "check that its history ends; else another --step",
+            Self::ProgramLoses { .. } => {
+                "check that the history runs to its end; else try another --step"
+            }
             Self::ProgramStepForAccuracy { .. } => {
                 "take such steps, or substeps at touches: tune export --stepping"
             }

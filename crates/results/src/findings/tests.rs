@@ -43,8 +43,8 @@ fn a_force_that_holds_for_a_part_of_the_record_is_told_with_what_the_whole_has()
     assert_eq!(finding.weight(), Weight::Warning);
     assert_eq!(
         finding.message(),
-        "axial force is of the first 49.4 s alone: over the whole record it would be 13.6 MN, and \
-            change by 5 % or more with springs or mesh"
+        "axial force is given for the first 49.4 s only: over the whole record it would be 13.6 MN \
+            but change by 5 % or more with springs or mesh"
     );
 }
 
@@ -65,7 +65,7 @@ fn forces_that_hang_on_the_frequency_are_told() {
     assert_eq!(found.weight(), Weight::Warning);
     assert_eq!(
         found.message(),
-        "column shear is of what is slower than 31.8 Hz: below twice that it is 5.22 MN"
+        "column shear is low-pass filtered at 31.8 Hz; at twice that cutoff it is 5.22 MN"
     );
     assert_eq!(DesignForces { column_shear_n: None, ..forces }.of_cutoff(), None);
 }
@@ -151,9 +151,15 @@ fn what_moves_an_ill_conditioned_motion_the_most_is_told() {
         holds_to_s: Some(20.0),
         springs_judged: true,
     };
-    assert_eq!(of(Some(0.593)).message(), "ill-conditioned: 0.1 % of restitution moves it by 59 %");
+    assert_eq!(
+        of(Some(0.593)).message(),
+        "ill-conditioned: a change of the restitution by 0.1 % moves the history by 59 %"
+    );
     // of files that were written before it was told
-    assert_eq!(of(None).message(), "ill-conditioned: 0.1 % of width moves it by 0.97 %");
+    assert_eq!(
+        of(None).message(),
+        "ill-conditioned: a change of the width by 0.1 % moves the history by 0.97 %"
+    );
 }
 
 /// One that nowhere moves by much is not told as one that cannot be predicted.
@@ -186,7 +192,7 @@ fn a_vertical_motion_left_out_is_told_as_far_as_it_can_be_predicted() {
         .message()
     };
     let none = told(None, Some(49.08), Vec::new());
-    assert!(none.contains("predictable to 49.08 s only") && !none.contains(" mm"), "{none}");
+    assert!(none.contains("predictable only to 49.08 s") && !none.contains(" mm"), "{none}");
     let top = PeakChange {
         quantity: "top displacement".into(),
         unit: "m".into(),
@@ -194,7 +200,10 @@ fn a_vertical_motion_left_out_is_told_as_far_as_it_can_be_predicted() {
         with: 0.2,
     };
     let some = told(None, Some(49.08), vec![top.clone()]);
-    assert!(some.contains("top 200 mm; with it the motion is predictable to 49.08 s"), "{some}");
+    assert!(
+        some.contains("top 200 mm; with it the motion is predictable only to 49.08 s"),
+        "{some}"
+    );
     assert!(told(None, None, vec![top]).ends_with("with it: top 200 mm"));
     let falls = told(Some(50.0), Some(49.08), Vec::new());
     assert!(falls.ends_with("at t = 50 s, which is not predictable beyond 49.08 s"), "{falls}");
@@ -217,7 +226,10 @@ fn springs_for_another_restitution_are_told_with_those_not_taken() {
     let (own, other) =
         ("equation 2's springs (peaks 1.10 %, NRMSE 0.29)", "(peaks 51.0 %, NRMSE unknown)");
     let (first, then) = (told(true), told(false));
-    assert!(first.find(own) < first.find(other) && first.contains("0.9902 of equation"), "{first}");
+    assert!(
+        first.find(own) < first.find(other) && first.contains("0.9902 times equation"),
+        "{first}"
+    );
     assert!(then.find(other) < then.find(own) && then.find(other).is_some(), "{then}");
 }
 

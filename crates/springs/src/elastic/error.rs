@@ -12,9 +12,9 @@ pub enum ElasticTuneError {
     Accuracy { key: &'static str, value: String, remedy: &'static str },
     #[error(
         "max_omega_hz (--max-hz) is {most_hz:?}, but the softest springs tried for this structure \
-         have {:.1} Hz: softer ones give way by more than a tenth of the structure's own \
-         deformation; allow at least that, or leave it out",
-        (.softest_hz * 10.0).ceil() / 10.0
+         have {least_hz:.1} Hz: softer springs deform by more than a tenth of the structure's own \
+         deformation; allow at least {least_hz:.1} Hz, or leave it out",
+        least_hz = (.softest_hz * 10.0).ceil() / 10.0
     )]
     TooSoft { most_hz: f64, softest_hz: f64 },
 }

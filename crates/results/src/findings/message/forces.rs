@@ -56,24 +56,24 @@ impl Finding {
             Self::ForcesHeldInPart { over_s, changes } => {
                 let [names, are, they, values] = told(changes);
                 format!(
-                    "{names} {are} of the first {} s alone: over the whole record {they} would be \
-                        {values}, and change by 5 % or more with springs or mesh",
+                    "{names} {are} given for the first {} s only: over the whole record {they} \
+                        would be {values} but change by 5 % or more with springs or mesh",
                     significant(*over_s, 3)
                 )
             }
             Self::ForcesOfCutoff { below_hz, changes } => {
                 let [names, are, they, values] = told(changes);
                 format!(
-                    "{names} {are} of what is slower than {} Hz: below twice that {they} {are} \
+                    "{names} {are} low-pass filtered at {} Hz; at twice that cutoff {they} {are} \
                         {values}",
                     significant(*below_hz, 3)
                 )
             }
             Self::ForcesAtRest { forces, tied } => format!(
                 "{} {} largest at rest: the frame's own weight{}, with a vertical motion more of \
-                    it, half on each foot and no thrust between them; rocking adds nothing. That \
-                    feet do not thrust is assumed: a tie or friction that holds them bears a \
-                    thrust, and leaves next to no shear and moment in legs at rest",
+                    it, half on each foot and no thrust between them; rocking adds nothing. The \
+                    feet are assumed free to spread; where a tie or friction holds them they carry \
+                    a thrust, and the legs have hardly any shear and moment at rest",
                 listed(forces),
                 if forces.len() == 1 { "is" } else { "are" },
                 if *tied { " and its tendon's pretension" } else { "" }

@@ -40,16 +40,16 @@ impl Finding {
                 percent(*press_over_weight)
             ),
             Self::SinksOnSprings { settlement_m, share_of_width, lifts_at_share } => format!(
-                "at rest the structure sinks by {} on its springs, {} of the distance between its \
-                    feet: a foot lifts from a tilt of {} of overturning on, and until then it \
-                    sways",
+                "at rest the structure settles by {} on its springs, {} of the distance between \
+                    its feet: no foot lifts below a tilt of {} of overturning; until then the \
+                    structure sways",
                 quantity(*settlement_m, "m"),
                 percent(*share_of_width),
                 percent(*lifts_at_share)
             ),
             Self::WalksOnSprings { largest_m, end_m } => format!(
-                "on springs the feet walk by up to {} ({} at the end), which Housner's do not: the \
-                    top's displacement has that in it, the drift ratio has not",
+                "on springs the feet walk by up to {} ({} at the end); Housner's feet do not: the \
+                    walk is part of the top displacement, not of the drift ratio",
                 quantity(*largest_m, "m"),
                 quantity(*end_m, "m")
             ),

@@ -20,9 +20,12 @@ impl Finding {
                     DeckEnd::Record => "",
                     DeckEnd::History => ": then it falls over, or the history ends",
                     DeckEnd::Foretold => {
-                        ": from then on differences of 1e-5, as between two programs, show"
+                        ": beyond that, differences of 1e-5, as between two programs, become \
+                            visible"
                     }
-                    DeckEnd::IllConditioned => ": beyond that, 0.1 % moves the motion too much",
+                    DeckEnd::IllConditioned => {
+                        ": beyond that, a change of 0.1 % moves the motion too much"
+                    }
                     DeckEnd::Flight => ": then the ground falls faster than the body",
                     DeckEnd::Slides => ": then a corner slides on, and friction decides",
                 };
@@ -63,8 +66,8 @@ impl Finding {
             } => {
                 let until = predictable_to_s.map(|until| {
                     format!(
-                        "; with it the motion is predictable to {} s only, and what is largest \
-                            later is not told",
+                        "; with it the motion is predictable only to {} s; later peaks are not \
+                            given",
                         significant(until, 4)
                     )
                 });
