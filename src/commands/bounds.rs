@@ -25,8 +25,8 @@ pub const INTERRUPTED_CODE: u8 = 130;
 #[derive(Debug, Args)]
 pub struct EffortOptions {
     /// Work that the search for springs may take, as a multiple of the default, which is about a
-    /// minute on two cores for a rigid body and two for an elastic structure. It counts steps, not
-    /// seconds: the same inputs give the same results anywhere
+    /// minute on two cores for a rigid body and two minutes for an elastic structure. Steps are
+    /// counted, not seconds: the same inputs give the same results on any machine
     #[arg(long, value_name = "TIMES", default_value_t = 1.0, allow_negative_numbers = true)]
     work: f64,
     /// Stop the search for springs after so many seconds, and keep the best so far; the record is

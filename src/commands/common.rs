@@ -227,7 +227,7 @@ impl GroundOptions {
     }
 }
 
-/// Threads beyond which a machine only starves.
+/// More threads than any machine uses.
 const MOST_THREADS: usize = 1024;
 
 /// Use this many threads; none: all cores. It must be told before anything is computed: the first

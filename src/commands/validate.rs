@@ -107,7 +107,7 @@ struct RecordsSource {
     seed: u64,
     /// sqrt(m g R/I0) of the structure (1/s).
     p: f64,
-    /// Lean of balance (rad).
+    /// Slenderness angle alpha (rad).
     alpha: f64,
 }
 

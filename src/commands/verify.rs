@@ -150,7 +150,7 @@ fn title(excitation: &Excitation, record: &Record, seconds: f64) -> String {
     }
 }
 
-/// What the error is told beside of a body that hardly moves.
+/// Note beside the error of a body that hardly moves: what the error is relative to.
 const OF_SIZE: &str = ", over a thousandth of half the width, since the body hardly moves";
 
 /// What a verification says nothing of.

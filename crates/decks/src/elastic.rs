@@ -35,10 +35,10 @@ const SWAY: f64 = 0.03;
 const FASTER: f64 = 3.0;
 /// A deck's steps are chosen for this share of the accuracy asked: what they err by at a landing
 /// goes on in vibration, of a column's mass too, and small errors grow 30-fold before a history is
-/// no longer judged. Errors of rotation at 1/4, 1/64, 1/256: a pier of 14 m with a heavy column
-/// 4.8e-3, 1.36e-3, 7.9e-4; one of 20 m that hardly lifts under vertical motion -, 6.4e-3, 1.7e-3;
-/// a portal of 6.5 m that rocks for 40 s 2.4e-3 at 1/256, 1.6e-3 at 1/512, 1.2e-3 at 1/1024 (the
-/// limit is 2e-3).
+/// no longer judged. Errors of rotation (limit 2e-3), at shares of 1/4, 1/64 and 1/256: pier of 14
+/// m with a heavy column: 4.8e-3, 1.36e-3, 7.9e-4; pier of 20 m that hardly lifts under vertical
+/// motion: not followed, 6.4e-3, 1.7e-3; portal of 6.5 m that rocks for 40 s: 2.4e-3 at 1/256,
+/// 1.6e-3 at 1/512, 1.2e-3 at 1/1024.
 const SHARE: f64 = 1.0 / 512.0;
 
 /// What stands above the list of springs of beams that give in shear.
@@ -63,7 +63,8 @@ pub struct ElasticDeck<'a> {
     pub record: &'a Record,
     /// Samples of it that are followed, the one at t = 0 included.
     pub samples: usize,
-    /// Of these, so many that its history is compared on: as far as the motion can be predicted.
+    /// How many of these samples are compared: those up to the time to which the motion can be
+    /// predicted.
     pub compared: usize,
     /// Node whose motion is checked, and its displacement (x, z) at every sample in our own history
     /// (m).

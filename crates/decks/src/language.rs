@@ -28,11 +28,10 @@ pub(super) struct Language {
     /// What ends the epilogue, and what stops it with a reason.
     ends: &'static str,
     stops: [&'static str; 2],
-    /// The same of springs that are of no use, and what prints a line.
+    /// What ends the epilogue where the springs are not to be used; and what prints a line.
     ends_refused: &'static str,
     prints: [&'static str; 2],
-    /// Springs of beams that give in shear, and their list: its head, and its rows' and its own
-    /// end.
+    /// Code of the shear springs of Timoshenko beams; head and end of their list.
     pub shear_springs: &'static str,
     pub shear_list: [&'static str; 2],
     /// Around a list, between its items, and after a row of a list of lists.

@@ -145,7 +145,8 @@ pub fn samples_to_fall(theta: &[f64]) -> usize {
 pub struct Expected {
     /// Number of samples followed, the one at t = 0 included.
     pub samples: usize,
-    /// Of these, so many that it is compared on: as far as the motion can be predicted.
+    /// How many of these samples are compared: those up to the time to which the motion can be
+    /// predicted.
     pub compared: usize,
     /// Z of the centre of mass, standing settled (negative: the settlement) (m).
     pub settled: f64,
@@ -153,8 +154,8 @@ pub struct Expected {
     pub u: (f64, f64),
     /// Largest and least v, from the settled position (m).
     pub v: (f64, f64),
-    /// NRMSE of u that a relative change of the width by 1e-5 makes in the history: the more, the
-    /// finer are a deck's steps.
+    /// NRMSE of u caused by a relative change of the width by 1e-5: the larger, the finer the
+    /// deck's steps.
     pub width_sensitivity: f64,
     /// Accuracy asked of the deck, as a normalised error of its history: its steps follow from it.
     pub accuracy: f64,

@@ -5,8 +5,8 @@
 //!   unit     a step tried of a rigid body's history; steps of elastic structures cost units by
 //!            their number of coordinates
 //!   spent    sum of all histories so far, each of which has a bound of its own
-//!   asked    between whole candidates alone, one after the other: where it stops does not hang on
-//!            which thread was first
+//!   asked    only between whole candidates, one after the other: where the search stops does not
+//!            depend on thread timing
 //! ```
 //!
 //! A time limit and ^C set the same stop. What they cut depends on the machine, and is marked.

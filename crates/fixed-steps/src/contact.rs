@@ -129,7 +129,7 @@ impl FixedFoot {
         self.anchor = self.next;
     }
 
-    /// The step is given up, `self` was before it.
+    /// A trial is given up: forgets the anchor that it found.
     pub fn revert(&mut self) {
         self.next = self.anchor;
     }

@@ -12,8 +12,8 @@
 //! within `lumping` h of the first one changes with it.
 //!
 //! CSI's help ("Solution Control": load steps are subdivided where the stiffness of nonlinear
-//! elements changes; "Event Lumping Tolerance": what is that near to its event is part of it) and a
-//! public generator of SAP2000's tables (event lumping 0.01) say that much. How often such a
+//! elements changes; "Event Lumping Tolerance": events closer together than this count as one) and
+//! a public generator of SAP2000's tables (event lumping 0.01) say that much. How often such a
 //! program repeats a trial, the most events in a step and the shortest part are not from there.
 
 use crate::{

@@ -1,4 +1,4 @@
-//! What springs in a program with fixed time steps err, in parts.
+//! The expected error of springs in a program with fixed time steps, by its causes.
 //!
 //! ```text
 //!   floor    13 p dt                       where in a step a landing falls
@@ -34,7 +34,7 @@ const SPREAD: [f64; 2] = [2.9, 4.6];
 /// Median NRMSE of u on motions made for the body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExpectedError {
-    /// By the step: springs hardly do better without touch refinement.
+    /// From the step: the least error of any springs without touch refinement.
     pub floor: f64,
     /// By the sway before uplift.
     pub stance: f64,

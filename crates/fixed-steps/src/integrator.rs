@@ -40,8 +40,8 @@ pub enum Integrator {
         /// damping). OpenSees' own number is 1 + alpha: `integrator('HHT', 2/3)` is alpha = -1/3.
         alpha: f64,
     },
-    /// Chung and Hulbert's. What OpenSees 3.7's `GeneralizedAlpha` does in truth, when given their
-    /// numbers, is not this: alpha_M scales the tangent of its iteration, but the inertia forces
+    /// Chung and Hulbert's. OpenSees 3.7's `GeneralizedAlpha` is a different method even with Chung
+    /// and Hulbert's numbers: alpha_M scales the tangent of its iteration, but the inertia forces
     /// are those of the step's end: for rho_inf = 1/2 it is HHT with alpha = -1/3, for 0 Newmark's
     /// method with gamma = 3/2, beta = 1.
     GeneralizedAlpha {

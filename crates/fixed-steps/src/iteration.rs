@@ -30,7 +30,7 @@ pub struct Iteration {
     pub constant: usize,
     /// At most so many of Newton's; they begin anew from the step's begin.
     pub newton: usize,
-    /// When it has arrived.
+    /// The test that ends it.
     pub test: ConvergenceTest,
 }
 

@@ -48,8 +48,8 @@ pub trait FixedStepModel {
 
     /// The same at the end q of a step whose forces count at `places`, a part w of the step: the
     /// foot's own node goes on along a straight line, from where it was at the step's begin (and
-    /// stays there if w is infinite). Contacts do not change that step any more, but the anchors
-    /// that the next one finds.
+    /// stays there if w is infinite). This no longer changes the forces of the step, only the
+    /// anchors for the next one.
     fn meet_end(&self, places: &Self::Places, _w: f64, q: &Self::Vector, feet: &mut Self::Feet) {
         self.meet(places, q, feet);
     }

@@ -6,9 +6,10 @@
 //! ```
 //!
 //! The old foot has no part in it: horizontal units do not lag. M = 1 - (m R^2/I0) sin^2 alpha is
-//! what lands on the new foot of a rigid body, over m. Where in a step it lands is anyone's guess,
-//! so that all places are tried. In steps longer than the landing the integrator decides, not the
-//! unit: generalized alpha of rho_inf 0 gives back least, HHT more than there was.
+//! what lands on the new foot of a rigid body, over m. The place in the step where it lands is
+//! arbitrary, so the root mean square over 16 places is taken. In steps longer than the landing the
+//! integrator decides, not the unit: generalized alpha of rho_inf 0 gives back least, HHT more than
+//! there was.
 
 use std::ops::ControlFlow;
 

@@ -47,8 +47,7 @@ use strong_motion::Record;
 /// Parts of the time over which the median is taken.
 const PARTS_A_LANDING: f64 = 13.0;
 
-/// A force, and by how much it changes with what is not the structure's; changes are shares of it,
-/// measured over `over_s`.
+/// A force and its relative change with springs and mesh, over `over_s`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StructureForce {
     /// Which.
@@ -158,7 +157,7 @@ impl StructureForces {
                 let found = peak.filtered.value;
                 let others = OtherForces {
                     found,
-                    // a mesh that says nothing changes everything
+                    // a finer mesh without this force counts as an infinite change
                     doubled_elements: finer
                         .as_ref()
                         .map(|finer| value(finer, kind).unwrap_or(f64::INFINITY)),

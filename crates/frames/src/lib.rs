@@ -10,7 +10,7 @@
 //! | `standing` | the standing structure as the ground feels it |
 //! | `beam`, `frame` | finite elements: corotational beams between nodes and rigid footings |
 //! | `fem` | a frame's history on ground springs |
-//! | `assembled` | a structure and its finite elements: rotation and drift, rest, the reference and for how long it can be told |
+//! | `assembled` | a structure and its finite elements: rotation and drift, rest, the reference and how far its motion can be predicted |
 //! | `ensemble` | peaks over motions near a record, where no model foretells a history |
 //! | `peaks` | the largest displacement, drift and uplift of a history, and their errors |
 //! | `design_forces` | forces to design for, and whether they are the structure's own |

@@ -49,9 +49,9 @@ impl UnitRow {
 pub struct CornerRow {
     /// Where it stands, from the structure's middle (m).
     pub x_m: f64,
-    /// Upright.
+    /// The vertical unit.
     pub vertical: UnitRow,
-    /// Lying.
+    /// The horizontal unit.
     pub horizontal: UnitRow,
 }
 

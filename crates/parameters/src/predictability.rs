@@ -1,7 +1,7 @@
 //! How far a history can be foretold at all: how sensitive our own is to the width.
 //!
-//! Some histories of rocking hang on so little that two programs agree on them only if both work
-//! much more accurately than anyone needs. A deck's steps become finer where that is so
+//! Some rocking histories are so sensitive that two programs agree on them only if both compute far
+//! more accurately than is otherwise needed. A deck's steps become finer where that is so
 //! (`decks::model`).
 
 use crate::{Parameters, answers::MemberHistory};
@@ -33,8 +33,8 @@ const FORETOLD: f64 = 5e-4;
 /// much more as that is less than one.
 const INERTIA_OF_ITS_OWN: f64 = 1e-3;
 
-/// Share of the half width below which a motion counts as standing: an error is told against at
-/// least that.
+/// Share of the half width below which a motion counts as standing; errors are taken relative to at
+/// least this size.
 pub const STANDING: f64 = 1e-3;
 
 /// NRMSE of u by which `motion`, the history of the model on `record`, is moved by a relative
@@ -158,7 +158,7 @@ pub fn until_time(until: f64, dt: f64) -> Foretold {
     Foretold { samples: samples_until(Some(until), dt), end: ForetoldEnd::IllConditioned }
 }
 
-/// How many samples that is.
+/// Samples before the two histories differ by more than `HANGS` of the peak; `None`: all.
 fn foretold_samples(motion: &Motion, changed: &Motion) -> Option<usize> {
     if nrmse(&changed.u, &motion.u) <= FORETOLD {
         return None;

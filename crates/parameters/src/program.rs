@@ -124,12 +124,13 @@ pub struct ProgramRow<U> {
     pub substeps: usize,
     /// Newton's iterations of a step, at most.
     pub newton_iterations: usize,
-    /// When they have arrived.
+    /// The test that ends them.
     pub converged: ProgramTest,
     /// The units.
     #[serde(flatten)]
     pub units: U,
-    /// Whether they have twice the usual Omega_n, for their peaks on earthquake-like motions.
+    /// Whether they are stiffer than usual (stance 20 or 48 instead of at most 12), for their peaks
+    /// on earthquake-like motions.
     #[serde(default)]
     pub stiffer_for_earthquakes: bool,
     /// What they err.

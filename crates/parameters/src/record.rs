@@ -12,7 +12,7 @@ use strong_motion::{
     ReadOptions, Record, RecordError, Source, Units, Vertical, cut_to, excitation::Excitation,
 };
 
-/// Length that files which remember no record stand for, unless they hold a match (s).
+/// Record length assumed for old files that name no record and hold no match (s).
 const FORMER_DURATION_S: f64 = 20.0;
 
 /// The record the springs were tuned on. Files of schema 1 have the first four keys only.

@@ -221,7 +221,7 @@ impl AccuracyReport {
         let reached = if self.reached { "asked" } else { "NOT reached" };
         let mut said = vec![format!("{reached}: {}", self.asked())];
         said.extend(record.filter(|_| !self.on_record()).map(|why| why.words().to_string()));
-        // what goes wrong first
+        // what is wrong comes first
         if self.reached {
             said.reverse();
         }

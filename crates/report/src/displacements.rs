@@ -26,7 +26,7 @@ const OF_BOTH: &str = "  drift ratio (rocking + bending)";
 /// Share of the top's displacement by which its part by rotation differs, from which it is said
 /// that the drift ratio is of that alone.
 const DIFFERS: f64 = 1e-4;
-/// Share of the top's displacement below which it is not said.
+/// Share of the top displacement below which the row is left out.
 const NOT_SAID: f64 = 0.005;
 
 const ROWS: [PeakRow; 10] = [

@@ -178,7 +178,7 @@ impl Unit {
 /// Part of a report: text, a table, commands.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Section {
-    /// In addresses.
+    /// Its id in the page (anchor).
     pub id: &'static str,
     /// Its heading.
     pub title: String,

@@ -88,7 +88,8 @@ impl HousnerReport {
     }
 
     /// The same of a structure with a tendon and dampers, by Housner's history with them. Feet that
-    /// may slip ask for no more than they get, so that of those the bare body still tells.
+    /// may slip never need more friction than there is, so for these the friction needed is that of
+    /// the body without members.
     #[must_use]
     pub fn with_members(self, body: &Body<f64>, record: &Record, both: &ModelComparison) -> Self {
         let Some(with) = &both.with else { return self };

@@ -34,8 +34,8 @@ struct Crowding {
     both_commands: bool,
     /// Lines of what a program with fixed time steps errs.
     program: usize,
-    /// Lines of what such a program is to be set to: all of it, without what is only to be left at
-    /// nought and one, or what there is room for. In none, it is left to the report.
+    /// Lines for the settings of such a program: all of them; without those that keep their
+    /// defaults; or as many as fit. 0: only in the report.
     settings: usize,
     /// Whether impacts, and the friction needed, stand in the table of peaks.
     all_peaks: bool,

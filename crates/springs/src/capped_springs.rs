@@ -43,14 +43,14 @@ fn logarithms(s: &Springs<Design<f64>>) -> Vec<f64> {
     [v.omega_n_hz, v.k(), v.c(), v.mu, h.omega_n_hz, h.k(), h.c(), h.mu].map(f64::ln).to_vec()
 }
 
-/// Half of a difference that a slope is taken from (in logarithms): far above what a history errs,
-/// far below what a design feels as curved.
+/// Half-width of the central differences (in logarithms): far above the error of a history, far
+/// below the range over which the residuals curve.
 const DIFFERENCE: f64 = 0.01;
 
 /// Cost of springs on which a run does not finish.
 const UNFINISHED: f64 = 100.0;
-/// Evaluations of a search for another restitution, and the cost that is good enough: 0.1 % in all
-/// landings.
+/// Evaluations of the search for another restitution; cost at which it stops (0.1 % error of e in
+/// every landing).
 const EVALUATIONS: usize = 6000;
 const ENOUGH: f64 = 0.4;
 
@@ -122,8 +122,8 @@ impl LeastSquares for LandingsAndUplifts<'_> {
     }
 }
 
-/// Omega_h/Omega_v from which the way down begins: what the stiff limit likes, and softer verticals
-/// that a cap asks for.
+/// Omega_h/Omega_v at the start of the descent: both units as stiff as a cap allows, and the softer
+/// vertical ones of `landing::design`.
 const RATIOS: [f64; 2] = [1.0, 4.0];
 /// Halvings of the stiffness on the way down.
 const HALVINGS: i32 = 3;
@@ -182,7 +182,7 @@ fn settles(springs: &Springs<Design<f64>>, bracket: Bracket) -> bool {
     springs.settlement(1.0) <= bracket.max_settlement * (1.0 + 1e-3)
 }
 
-/// One way down.
+/// Follows the design down from one frequency ratio by one criterion.
 fn path(
     body: &Body<f64>,
     restitution: f64,

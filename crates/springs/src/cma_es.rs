@@ -110,7 +110,8 @@ impl CmaEs {
         let length = self.sigma_path.norm();
         let settled = (1.0 - (1.0 - of.c_sigma).powi(2 * self.generations)).sqrt();
         let n = self.mean.len() as f64;
-        // a path that grew long stretches the step first, the covariance later
+        // h_sigma of the tutorial: where the path of the step size is long, that of the covariance
+        // waits
         let stalled = length / settled >= (1.4 + 2.0 / (n + 1.0)) * of.length;
         let gain = (of.c_path * (2.0 - of.c_path) * of.kept).sqrt();
         self.covariance_path *= 1.0 - of.c_path;

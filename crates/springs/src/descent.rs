@@ -5,9 +5,9 @@
 //! ```
 //!
 //! argmin keeps the iteration and its best point; clarabel solves the programme; J comes from
-//! central differences and costs two values a parameter. So after a step it is kept and told what
-//! the step showed (Broyden, Mathematics of Computation 19, 1965): J += (dr - J d) d' / d'd. It is
-//! taken anew when that no longer gains.
+//! central differences and costs two values a parameter. So after a step J is kept and updated
+//! (Broyden, Mathematics of Computation 19, 1965): J += (dr - J d) d' / d'd. It is taken anew when
+//! that no longer gains.
 
 use argmin::core::{
     CostFunction, Error, Executor, IterState, Jacobian, KV, Problem, Solver, State,
@@ -120,7 +120,8 @@ impl<P: LeastSquares> Solver<Adapter<'_, P>, Iterate> for TrustRegion<'_, P> {
         };
         let now = sum_of_squares(&model.r);
         let mut best = (now, z.clone());
-        // a fresh matrix is dear, another step of it cheap: shrink until a step gains
+        // a new Jacobian is expensive, another trial step is cheap: shrink the region until a step
+        // gains
         for _ in 0..if model.fresh { 4 } else { 1 } {
             let Some(d) = programme(self.problem, &z, &model.r, &model.j, self.radius) else {
                 self.radius *= 0.25;

@@ -46,12 +46,11 @@ use frames::{
 use results::{Finding, NotDone};
 use strong_motion::Record;
 
-/// Units of work that a search may take unless told otherwise: about a minute and a half on two
-/// cores.
+/// Units of work that a search may take by default: about two minutes on two cores.
 pub const MOST_WORK: u64 = 240_000_000;
 /// Rungs: a compliance ratio of 0.1 to 1e-8.
 const RUNGS: (i64, i64) = (10, 80);
-/// Give over accuracy where the search begins.
+/// Compliance ratio over the accuracy, where the search begins.
 const BEGIN: f64 = 0.1;
 /// Share of the balanced K that is tried where that one does not hold.
 const QUIETER: f64 = 0.3;
@@ -62,7 +61,9 @@ const STIFFER: i64 = 10;
 /// Springs of an elastic structure and what was measured of them.
 #[derive(Clone, Debug)]
 pub struct ElasticTuned {
+    /// Springs of each corner, in the order of the frame's.
     pub springs: CornerSprings,
+    /// Their errors on the motions on which they were judged; none if the search was stopped first.
     pub measured: Measured,
     /// Whether the accuracy asked for is reached; not if there was nothing to measure it on:
     /// springs are then those that the search would begin with.
@@ -87,7 +88,7 @@ pub struct ElasticTuned {
 }
 
 impl ElasticTuned {
-    /// What of the search was cut or not followed to its end.
+    /// Findings about what the search left out or did not finish.
     pub fn findings(&self, asked: Asked) -> Vec<Finding> {
         let reached = self.measured.over(asked).map(|over| over * asked.error);
         let cut = self.cut.filter(|_| !self.not_done.is_empty()).map(|by| Finding::SearchCut {
@@ -301,7 +302,7 @@ pub fn landing_speed(structure: &ElasticStructure) -> f64 {
     2.0 * body.half_width * body.p() * body.alpha() * 0.75_f64.sqrt()
 }
 
-/// Give of a rung.
+/// Compliance ratio of a rung.
 fn compliance_ratio(i: i64) -> f64 {
     10f64.powf(-i as f64 / DECADE)
 }

@@ -6,7 +6,8 @@
 //!                        stance   80 (p/(alpha Omega_e))^2
 //!                        rebound  20 alpha^3 (v_r/v_n)^2,   v_r/v_n about 1.7 K
 //!
-//!   stance  = 0.6 floor         ->  k_e = k1 K/(1 + K) = 10 m p/(alpha^2 dt), or 12, 7, 5 of it
+//!   stance  = 0.6 floor         ->  k_e = k1 K/(1 + K) = S m p/(alpha^2 dt), S = 12, 10, 7, 5
+//!                               and 48, 20 where the integrator ends stiff modes
 //!   rebound = 3/4 floor         ->  K = sqrt(3 13 p dt/(4 20 1.7^2 alpha^3)),  at most 1/2
 //!   units   mu = mu_u(K) M/2,  C = C_u(K) sqrt(M)  of what lands (`landing::design`)
 //!           Omega_h/Omega_v at least 4, more under stocky frames
@@ -21,9 +22,9 @@
 //! on. One will do if nearly all histories come through and their median error is at most 1.7 times
 //! the floor; the first that will do is taken, from 10 on. If a user asks for a program, all are
 //! tried, stiffer ones too if the integrator ends stiff modes; of those whose medians are alike, it
-//! takes the one whose peaks err least on earthquake-like motions. What is told of the springs on
-//! synthetic motions is then measured on 48 that chose nothing. On earthquake-like motions they are
-//! measured in every run.
+//! takes the one whose peaks err least on earthquake-like motions. The errors given for synthetic
+//! motions are then measured on 48 motions that did not choose the springs. On earthquake-like
+//! motions they are measured in every run.
 
 pub mod instead;
 mod units;
@@ -54,8 +55,8 @@ const UNASKED: usize = 1;
 const STIFFER: [f64; 2] = [48.0, 20.0];
 /// Median error that springs may have, over the floor.
 const OVER_FLOOR: f64 = 1.7;
-/// Where a user asks for a program, so many synthetic motions more choose the springs, and others
-/// tell what they err.
+/// Where a user asks for a program: additional synthetic motions that choose the springs; the
+/// motions after these only measure the errors.
 const ALSO_CHOOSE: usize = 24;
 /// p dt up to which an error is told.
 pub const LONGEST: f64 = 0.03;
@@ -259,7 +260,7 @@ impl ProgramSprings {
         if ended { THROUGH_IF_ENDED } else { THROUGH }
     }
 
-    /// The median over the largest that springs may have.
+    /// The median error over the largest acceptable one (`OVER_FLOOR` times the floor).
     fn over_limit(&self, errors: &ErrorsOverMotions) -> f64 {
         errors.quantile(0.5) / (OVER_FLOOR * self.expected.floor)
     }

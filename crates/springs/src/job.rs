@@ -193,7 +193,7 @@ impl SearchedSprings {
     /// By the design from the geometry, with the paper's procedure at the same Omega_n beside it.
     fn by_landing(design: &LandingDesign, progress: SearchProgress) -> Result<Self, JobError> {
         let &LandingDesign { case, body, suites, procedure, effort } = design;
-        // what the one spends does not stop the other: which is first hangs on the threads
+        // separate budgets: which of the two spends first would depend on the threads
         let rest = effort.share(1);
         let program = |effort: &Effort| ProgramSprings::of_case(case, &body, suites, effort);
         let compared = suites.has_whole_record();

@@ -10,7 +10,7 @@ pub(super) const DECADE: f64 = 10.0;
 /// Steps of a search before it takes what it has found.
 const MOST_STEPS: usize = 12;
 
-/// What is told of a search: the rungs judged, and the least error so far.
+/// Progress of a ladder search: rungs judged, least error so far (over what is allowed).
 pub(super) type RungProgress<'a> = &'a dyn Fn(usize, f64);
 
 /// The ladder of springs that may be chosen.
@@ -73,7 +73,7 @@ fn seek(ladder: Ladder, judge: &mut dyn FnMut(i64) -> Option<f64>) -> Option<i64
     // everything up to `fails` counts as failing, `holds` holds
     let (mut fails, mut holds): (i64, Option<i64>) = (first - 1, None);
     let mut best: Option<(f64, i64)> = None;
-    // an error that hardly falls, or not yet, is left behind in strides
+    // the step at least doubles while no rung holds: the error may fall only far up the ladder
     let mut stride = 1;
     let mut next = guess;
     for _ in 0..MOST_STEPS {

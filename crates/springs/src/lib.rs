@@ -32,5 +32,5 @@ pub mod suite;
 /// else decides, or more motions do.
 pub(crate) const ALIKE: f64 = 1.25;
 
-/// What is told of a search: what is done, of how much (0 if unknown), and the least error so far.
+/// Progress of a search: evaluations done, evaluations planned (0: unknown), least error so far.
 pub type SearchProgress<'a> = &'a (dyn Fn(usize, usize, f64) + Sync);

@@ -17,7 +17,7 @@ use dynamics::effort::Effort;
 
 /// Points of a generation.
 const GENERATION: usize = 14;
-/// Random points of which the best is set out from.
+/// Random points; the walk starts at the best of them.
 const SCATTERED: usize = 100;
 /// Step size at the start, in logarithms.
 const STEP: f64 = 0.5;

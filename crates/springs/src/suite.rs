@@ -31,11 +31,11 @@ const EARTHQUAKES: usize = 16;
 /// Earthquake-like motions that topple a structure, or cannot be foretold for it, are scaled down
 /// to so many times the acceleration that lifts it.
 const MILD: (f64, f64) = (1.2, 6.0);
-/// Motions of each suite that are looked at for them.
+/// Candidates tried to find them.
 const LOOKED_AT: usize = 480;
-/// So many of them at a time.
+/// Candidates tried in one parallel batch.
 const AT_A_TIME: usize = 8;
-/// Motions that decide between springs which these do not tell apart: followed, and looked at.
+/// Further motions, where the first do not separate two designs: kept; candidates tried.
 const MORE: usize = 72;
 const MORE_LOOKED_AT: usize = 480;
 /// Seed of all motions by which a run chooses springs: not one that `tune validate` takes by

@@ -20,7 +20,7 @@ use super::{
 use fits::{bounds, fits};
 use sweep_table::{SweepTable, TableOf};
 
-/// What is asked whether it is exceeded.
+/// What is exceeded or not.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LimitState {
     /// The body lifts.

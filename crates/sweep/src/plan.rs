@@ -77,7 +77,7 @@ pub struct Cell {
     pub level: usize,
 }
 
-/// Cells to a part: some seconds of work, and so much that is lost when a sweep is killed.
+/// Cells in a part: a few seconds of work, which is also what is lost when a sweep is killed.
 const PART_HOUSNER: u64 = 20_000;
 const PART_FEM: u64 = 500;
 const PART_SPECTRUM: u64 = 64;

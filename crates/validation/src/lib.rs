@@ -16,8 +16,8 @@
 //!   counts while a foot is up. A record that lifts neither model gives 0 in both.
 //! - **Toppled** means the same in both models: |theta| passes pi/2, or will do so whatever the
 //!   rest of the record, or the history ends with a body that would topple by Housner's equation if
-//!   the ground stopped. How far it had fallen when the record ended says nothing, so its peak is
-//!   pi/2.
+//!   the ground stopped. How far it had fallen when the record ended means nothing, so its peak is
+//!   set to pi/2.
 //! - **Histories** can be compared one to one only where Housner's own answer is well conditioned,
 //!   by its derivative and by finite changes (`conditioning`), and where his pivot never has to
 //!   hold the body down: a foot that can only press lifts there, in any finite element program and

@@ -63,8 +63,8 @@ impl Quantiles {
     }
 }
 
-/// Below this sensitivity histories are alike or not, though not one to one: what a geometric mean
-/// is taken over.
+/// Sensitivity below which a history enters the geometric mean: such histories can be compared
+/// statistically, though not one to one.
 pub const PREDICTABLE: f64 = 150.0;
 
 /// The geometric mean of the NRMSE of u over records with a sensitivity below 150 that lift

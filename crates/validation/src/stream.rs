@@ -12,9 +12,9 @@ use super::peaks::{HousnerForces, PeakPairs};
 use dynamics::fem::{Change, HistoryOutcome, Observer, View};
 use rocking::{housner::topples, scalar::GRAVITY, structure::Body};
 
-/// u_g over gamma = 1 + a_v/g at the samples (m/s2): what a body beyond alpha must be able to fall
-/// against. It is largest at samples; without bound where the ground falls faster than the body.
-/// `vertical` is empty where there is none.
+/// Effective horizontal acceleration a_g/(1 + a_v/g) at the samples (m/s2), against which a body
+/// beyond alpha must fall. Its maximum lies at a sample; infinite where the ground falls faster
+/// than the body. `vertical` is empty where there is none.
 pub fn push<'a>(accel: &'a [f64], vertical: &[f64]) -> Cow<'a, [f64]> {
     if vertical.is_empty() {
         return Cow::Borrowed(accel);
@@ -67,7 +67,7 @@ pub struct ComparisonObserver<'a> {
     touched: f64,
     /// Velocities u', v' of the centre of mass at the last sample (m/s).
     velocity: [f64; 2],
-    /// Lean of balance (rad).
+    /// Slenderness angle alpha (rad).
     alpha: f64,
     /// Index and size of the largest |u_g| of the rest of the record (m/s2).
     strongest: Option<(usize, f64)>,
@@ -162,7 +162,7 @@ pub(crate) struct HistorySample {
 }
 
 impl ComparisonObserver<'_> {
-    /// Take note of a sample; whether the history shall go on.
+    /// Records a sample; returns Break once the body is certain to fall.
     #[inline]
     pub(crate) fn take(&mut self, index: usize, now: &HistorySample) -> ControlFlow<()> {
         let HistorySample { place, velocity, theta, rate, stands } = *now;

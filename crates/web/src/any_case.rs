@@ -50,7 +50,7 @@ impl AnyCase {
             return Ok(Self::Elastic(Box::new(ElasticCase::parse(NAME, text).map_err(of_record)?)));
         }
         let case = Case::parse(NAME, text).map_err(of_record)?;
-        // what leads to a search that asks the time, which a page has not, or takes minutes
+        // settings whose search reads the clock, which wasm does not have, or takes minutes
         let refused = [
             ("tuning.objective = \"arr\"", case.tuning.objective == Objective::Arr),
             ("tuning.max_omega_hz", case.tuning.max_omega_hz.is_some()),

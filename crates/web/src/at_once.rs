@@ -1,5 +1,5 @@
-//! What is there at once, while somebody turns the numbers: histories on springs from the geometry,
-//! and what is said of them.
+//! Immediate answers while the user changes inputs: histories on springs from the geometry, and
+//! their findings.
 //!
 //! Of a rigid body both models' histories; of an elastic structure the one on springs alone, since
 //! that on rigid ground takes ten times as long.

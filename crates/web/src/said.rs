@@ -1,4 +1,4 @@
-//! What is said of a case: by springs from the geometry at once, by the whole run later.
+//! The answer for a case: first on springs from the geometry, later from the whole run.
 
 use serde::Serialize;
 
@@ -58,7 +58,7 @@ impl Working {
     }
 }
 
-/// Largest displacements.
+/// Largest displacements (m), up to an overturning.
 #[derive(Serialize)]
 pub(crate) struct PeaksFound {
     /// Housner's; on rigid ground. None of an elastic structure before the whole run.

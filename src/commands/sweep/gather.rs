@@ -74,7 +74,7 @@ const FILES: &[&str] = &[
 
 /// Histories up to which they are also written as CSV.
 const CSV_ROWS: u64 = 20_000;
-/// Missing parts that are named.
+/// Missing parts named in the message, at most.
 const NAMED: usize = 20;
 
 pub fn run(o: &GatherOptions) -> Result<(), CommandError> {

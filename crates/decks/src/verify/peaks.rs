@@ -59,8 +59,7 @@ impl ComparedPeak {
 /// Share of the half width, and rotation (rad), below which nothing moves to speak of.
 const SMALL: f64 = 1e-6;
 
-/// How often a body goes from leaning on one side to leaning on the other: its landings that rock
-/// it on.
+/// Number of times the body changes the side to which it leans.
 pub fn swings(theta: &[f64], alpha: f64) -> usize {
     let mut side = 0.0;
     let mut count = 0;

@@ -13,7 +13,7 @@ use crate::DeckFormat;
 /// The deck's exit code when openseespy cannot be loaded.
 const NO_OPENSEES: i32 = 3;
 
-/// How often progress is looked for.
+/// Interval at which the deck's progress is read.
 const TELL: Duration = Duration::from_millis(500);
 
 /// The last line like "12 s of 20 s" in what the deck said: 12.

@@ -1,4 +1,4 @@
-//! How hard a run works, how it ends, and what it cost.
+//! Accuracy and limits of a run, its outcome, its cost.
 
 /// How accurately and how long to work.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,4 +1,4 @@
-//! What the designer needs of a history: forces in the legs, tendon and dampers, and base shear.
+//! Design quantities of a history: forces in legs, tendon and dampers, and the base shear.
 //!
 //! ```text
 //!   leg      F = (H, N + d) of the ground and the dashpot d on the foot, D from the mass to the foot:

@@ -1,4 +1,5 @@
-//! What a force is beside others: of the same time, with another mesh, on other springs.
+//! A force beside others: those at the same time; the same force with another mesh and on other
+//! springs.
 
 use serde::{Deserialize, Serialize};
 

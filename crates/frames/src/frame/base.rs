@@ -1,5 +1,5 @@
-//! What a structure's rigid rotation is: that of a footing, or of the line between the outer feet
-//! where they are points.
+//! The rigid rotation of a structure: that of a footing or, where feet are points, of the line
+//! between the outer feet.
 
 use super::Frame;
 

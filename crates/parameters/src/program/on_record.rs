@@ -19,8 +19,8 @@ pub struct ProgramOnRecord {
     /// When the structure has fallen over, turned by 1 rad, if it does (s).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub falls_s: Option<f64>,
-    /// Whether no small change moves the motion by much, so that this tells of the springs; none:
-    /// not looked at.
+    /// Whether the motion is well conditioned, so that these errors say something about the
+    /// springs; none: not checked.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub predictable: Option<bool>,
     /// Up to when the motion can be predicted (s), if not to its end.

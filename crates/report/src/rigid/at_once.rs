@@ -1,5 +1,5 @@
-//! What is said of a rigid body on springs that were not searched for: within milliseconds, for
-//! where somebody turns the numbers.
+//! The report of a rigid body on springs from the geometry, within milliseconds, for interactive
+//! use.
 
 use super::{alone, peaks, taken};
 use crate::{Run, doubts, filed, reference, reference::HousnerReport};

@@ -23,7 +23,7 @@ pub(crate) const LEANS: [f64; 6] = [0.05, 0.2, 0.35, 0.5, 0.7, 0.9];
 /// How long a release is followed, in 1/p, and its samples.
 const RELEASE: f64 = 8.0;
 const SAMPLES: f64 = 1600.0;
-/// Motions of each suite that are followed, and that are looked at for them.
+/// Motions of each suite that are kept; candidates tried to find them.
 const MOTIONS: usize = 8;
 const LOOKED_AT: usize = 12;
 

@@ -32,7 +32,7 @@ pub struct ElasticTrial {
     pub accel: Vec<f64>,
     /// The vertical part, upwards; empty if there is none.
     pub vertical: Vec<f64>,
-    /// Lean it is let go from (rad); none if it stands.
+    /// Lean from which it is released (rad); none if it starts standing.
     pub lean: Option<f64>,
     /// The reference over that part.
     pub reference: Vec<Sway>,
@@ -74,7 +74,7 @@ pub enum ElasticTrialOutcome {
 
 /// A history of the reference may take one in so many of all units.
 const TRIALS: u64 = 90;
-/// Histories of a reference that is tried on: itself and two perturbed ones.
+/// Histories computed for one trial: the reference and two perturbed ones.
 const TOLD_BY: u64 = 3;
 
 fn count(history: &ElasticRocking, effort: &Effort) {

@@ -4,10 +4,10 @@
 //!  ug''/(g tan alpha)  =  0 .. -0.8  in 0.1 s,   -0.8 .. 1.7  in t_r, as a half cosine,   1.7 for a moment more
 //! ```
 //!
-//! A stance of compliance x = ug''/w^2 (w: its swaying) has a velocity of ug'''/w^2 when it lifts,
-//! on which it swings, if it sways undamped, between nothing and twice as much, depending on w t_r.
-//! So there are many t_r: those of earthquakes and, as what is wanted does not depend on the size
-//! of a structure alone, some in units of 1/p.
+//! A stance that deflects by x = ug''/w^2 (w: its sway frequency) has the velocity ug'''/w^2 at
+//! uplift; undamped sway changes it to between zero and twice that, depending on w t_r. So there
+//! are many t_r: those of earthquakes and, as what is wanted does not depend on the size of a
+//! structure alone, some in units of 1/p.
 
 use std::{f64::consts::PI, ops::ControlFlow};
 

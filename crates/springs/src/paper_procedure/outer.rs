@@ -70,7 +70,7 @@ pub struct Bracket {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Candidate {
     pub springs: Springs<Design<f64>>,
-    /// sqrt(J/2), the mean NRMSE of u and v; what it had reached when abandoned.
+    /// sqrt(J/2), the mean NRMSE of u and v; of an abandoned candidate, the error up to then.
     pub error: f64,
     /// NRMSE of u alone, as far.
     pub of_u: f64,

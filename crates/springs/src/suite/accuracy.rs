@@ -181,9 +181,10 @@ pub(crate) fn quantile(sorted: &[f64], q: f64) -> Option<f64> {
     })
 }
 
-/// Geometric mean, and the factor of its standard error; a history that lost the motion altogether
-/// counts as one that stands still, so that no single motion dominates. A factor of e is the spread
-/// that few motions are taken to have: it counts as one of them.
+/// Geometric mean, and the factor of its standard error; errors are clamped to 1e-12..1: a lost
+/// history counts as one that stands still, so that no single motion dominates. To the squared
+/// deviations of ln(error) one of 1, a factor of e, is added, so that few motions do not look
+/// certain.
 pub(crate) fn geometric_mean(
     errors: impl ExactSizeIterator<Item = f64> + Clone,
 ) -> Option<(f64, f64)> {

@@ -24,7 +24,8 @@ impl FragilityRow {
         self.median().is_some_and(|median| !(self.range.0..=self.range.1).contains(&median))
     }
 
-    /// The median: of a fit, or between what exceeds and what does not.
+    /// The median: of the fit or, for separated outcomes, the geometric mean of the two intensities
+    /// between which they separate.
     pub(crate) fn median(&self) -> Option<f64> {
         match &self.fit {
             LognormalFit::Fitted(fit) => Some(fit.median()),
