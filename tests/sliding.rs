@@ -18,7 +18,7 @@ fn run(case: &str, options: &str) -> (String, Value, String) {
     (screen, folder.json("out/parameters.json"), folder.text("out/summary.csv"))
 }
 
-/// Largest slip and where it ends (m): Newmark's block on a plane, r'' = -ug'' - mu g sgn(r').
+/// Largest slip and where it ends (m): Newmark's block on a plane, r'' = -a_g - mu g sgn(r').
 fn block_on_a_plane(record: &Record, friction: f64) -> [f64; 2] {
     let (parts, limit) = (1000, friction * GRAVITY);
     let h = record.dt / f64::from(parts);

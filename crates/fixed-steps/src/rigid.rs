@@ -5,8 +5,8 @@
 //!
 //!   foot of side s (-1 left, +1 right), large rotation:
 //!     p_x = X + s b (cos theta - 1) - h sin theta           p_z = Z - s b sin theta + h (1 - cos theta)
-//!   m  X''     = -m ug'' + sum H                m2_h a_x'' = -m2_h ug'' - H - k2_h a_x - c_h a_x'
-//!   m  Z''     = -m (g + vg'') + sum N          m2_v a_z'' = -m2_v vg'' - N - k2_v a_z - c_v a_z'
+//!   m  X''     = -m a_g + sum H                 m2_h a_x'' = -m2_h a_g - H - k2_h a_x - c_h a_x'
+//!   m  Z''     = -m (g + a_v) + sum N           m2_v a_z'' = -m2_v a_v - N - k2_v a_z - c_v a_z'
 //!   I  theta'' = sum ( H dp_x/dtheta + N dp_z/dtheta )
 //! ```
 //!

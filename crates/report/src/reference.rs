@@ -310,7 +310,7 @@ fn left_aside(structure: &Structure, with: &MemberHistory) -> Option<Finding> {
 /// bear as they bear the weight W, and which acts where the mass is only by its upright pull,
 ///
 /// ```text
-///   m ug'' h = (W + T) b
+///   m a_g h = (W + T) b
 /// ```
 pub fn uplift_g(structure: &Structure, members: &Members) -> f64 {
     let pull = members.tendon.map_or(0.0, |tendon| tendon.pretension);

@@ -1,7 +1,7 @@
 //! Rigid rocking: Housner's equation through a record.
 //!
 //! ```text
-//! (1),(3)  theta'' + p^2 [ gamma sin(alpha s - theta) + (u_g/g) cos(alpha s - theta) ] = 0,   s = sgn(theta)
+//! (1),(3)  theta'' + p^2 [ gamma sin(alpha s - theta) + (a_g/g) cos(alpha s - theta) ] = 0,   s = sgn(theta)
 //! (2)      at theta = 0 (impact) theta' jumps to e theta',   e = 1 - (m R^2/I0)(1 - cos 2 alpha)
 //! ```
 //!
@@ -12,11 +12,11 @@
 //! | theta | rotation, positive leaning to the right | rad |
 //! | alpha | slenderness angle atan(b/h) | rad |
 //! | p^2 | m g R / I0 | 1/s2 |
-//! | u_g | horizontal ground acceleration, linear between samples | m/s2 |
+//! | a_g | horizontal ground acceleration, linear between samples | m/s2 |
 //! | gamma | 1 + a_v/g: a_v is the vertical ground acceleration, positive upwards; 1 without it, as in the paper | - |
 //! | e | velocity restitution; the paper's r = e^2 is an energy ratio | - |
 //!
-//! At rest the body stays down until |u_g| > (g + a_v) tan(alpha). With vertical motion a history
+//! At rest the body stays down until |a_g| > (g + a_v) tan(alpha). With vertical motion a history
 //! ends where the pivot's normal force falls to zero (`contact`); without it the regime's warnings
 //! tell. A tendon and dampers add their torques (`restraint`). Every step ends at a sample, since
 //! the record has a kink there: the kinks, not a tolerance, decide the accuracy. One Taylor step

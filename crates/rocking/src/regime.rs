@@ -4,11 +4,11 @@
 //! With phi = alpha s - theta the pivot's forces on the body, horizontal F and vertical N, are
 //!
 //! ```text
-//! F = m ( R [ cos(phi) theta'' + sin(phi) theta'^2 ] + u_g )
+//! F = m ( R [ cos(phi) theta'' + sin(phi) theta'^2 ] + a_g )
 //! N = m ( R [ sin(phi) theta'' - cos(phi) theta'^2 ] + g + a_v )
 //! ```
 //!
-//! and at rest F = m u_g, N = m (g + a_v); a_v is the vertical ground acceleration, if there is
+//! and at rest F = m a_g, N = m (g + a_v); a_v is the vertical ground acceleration, if there is
 //! any. Without sliding |F|/N is below the friction coefficient; N <= 0 is free flight.
 //!
 //! A landing turns the centre of mass, h above the ground and b beside either foot, from the rate w
@@ -94,7 +94,7 @@ pub fn check_with(
     let forces = |side, theta, rate, ground| {
         forces_with(body, restraint.as_ref(), side, (theta, rate), ground)
     };
-    // in g; gamma = 1 + a_v/g beside u_g/g
+    // in g; gamma = 1 + a_v/g beside a_g/g
     let at = |record: &[f64], i: usize| record.get(i).copied().unwrap_or(0.0) * scale / GRAVITY;
     let sample = |i: usize| (at(accel, i), 1.0 + at(vertical, i));
     let mut worst = Worst {
@@ -205,13 +205,13 @@ pub fn ground_forces(
     rocking.theta.iter().zip(&rocking.rate).enumerate().map(force).collect()
 }
 
-/// Whether a body at rest stays at rest under u_g/g and gamma: |u_g|/g below gamma tan(alpha).
+/// Whether a body at rest stays at rest under a_g/g and gamma: |a_g|/g below gamma tan(alpha).
 pub fn stands(body: &Body<f64>, (ground, gamma): (f64, f64)) -> bool {
     ground.abs() * body.height <= gamma * body.half_width
 }
 
 /// F and N of a body that rocks on the foot of a side (1: right) over its weight m g; the ground
-/// has u_g/g and gamma.
+/// has a_g/g and gamma.
 pub fn forces(
     body: &Body<f64>,
     side: f64,

@@ -1,6 +1,6 @@
 //! Ground motions: acceleration at even time steps, from files or embedded.
 //!
-//! A record is the ground acceleration u_g''(t) in m/s2, positive to the right, `accel[i]` at t = i
+//! A record is the ground acceleration a_g(t) in m/s2, positive to the right, `accel[i]` at t = i
 //! dt, linear between samples: the kinks at the samples are part of the motion, and solvers step
 //! from one to the next. Numbers in g are turned into m/s2 with g = 9.81 m/s2 ([`GRAVITY`]).
 //!

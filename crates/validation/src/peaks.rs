@@ -4,7 +4,7 @@
 //! ```text
 //!   displacement   max |u|
 //!   uplift         max 2b sin |theta| of a foot, while one is off the ground
-//!   base shear     max |F|,   F = m ( (u'_i - u'_(i-1))/dt + mean u_g )          mean over the interval between two samples
+//!   base shear     max |F|,   F = m ( (u'_i - u'_(i-1))/dt + mean a_g )          mean over the interval between two samples
 //!   axial force    max |N|,   N = m ( (v'_i - v'_(i-1))/dt + g + mean a_v )
 //!   error          | peak - peak of Housner | / peak of Housner
 //! ```

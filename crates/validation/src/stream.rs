@@ -1,8 +1,8 @@
 //! What is kept of a finite element history while it runs: sums and peaks, no samples.
 //!
 //! A body beyond alpha by beta, not coming back, falls whatever the ground still does if the
-//! tangent of beta is above max |u_g|/g of the rest of the record: by equation (1) theta'' = p^2
-//! [sin(beta) - (u_g/g) cos(beta)] then stays on the side of the fall. The history is stopped
+//! tangent of beta is above max |a_g|/g of the rest of the record: by equation (1) theta'' = p^2
+//! [sin(beta) - (a_g/g) cos(beta)] then stays on the side of the fall. The history is stopped
 //! there. To follow the fall any further costs a lot and says nothing: from 48 degrees on an
 //! A-frame's leg would have to pull, and a body without rotational inertia flies and spins.
 
@@ -69,7 +69,7 @@ pub struct ComparisonObserver<'a> {
     velocity: [f64; 2],
     /// Slenderness angle alpha (rad).
     alpha: f64,
-    /// Index and size of the largest |u_g| of the rest of the record (m/s2).
+    /// Index and size of the largest |a_g| of the rest of the record (m/s2).
     strongest: Option<(usize, f64)>,
     initial_z: f64,
     pub errors: StreamErrors,
@@ -124,7 +124,7 @@ impl<'a> ComparisonObserver<'a> {
         Self { forces: Some(forces), ..self }
     }
 
-    /// The largest |u_g| from a sample to the end (m/s2); looked for anew only when that sample has
+    /// The largest |a_g| from a sample to the end (m/s2); looked for anew only when that sample has
     /// passed.
     fn strongest_from(&mut self, index: usize) -> f64 {
         match self.strongest {

@@ -218,8 +218,8 @@ fn what_a_program_gives_up_or_topples_is_told() {
 
 /// Displacement and uplift by the whole histories; the base shear by the springs' own forces
 /// between landings at every step, and by equation (1) at the samples instead of the momentum
-/// between them: for a body at rest u_g, and on a foot R (cos(phi) theta'' + sin(phi) theta'^2) +
-/// u_g.
+/// between them: for a body at rest a_g, and on a foot R (cos(phi) theta'' + sin(phi) theta'^2) +
+/// a_g.
 #[test]
 fn errors_of_peaks_are_those_of_an_independent_calculation() {
     for (control, width) in

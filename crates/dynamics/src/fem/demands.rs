@@ -3,7 +3,7 @@
 //! ```text
 //!   leg      F = (H, N + d) of the ground and the dashpot d on the foot, D from the mass to the foot:
 //!            axial F D/|D| (tension positive)   moment at the mass H D_z - (N + d) D_x    shear moment/|D|
-//!   base shear    sum H plus the tendon's horizontal force at its anchor: what the ground gives the body, m (X'' + ug'')
+//!   base shear    sum H plus the tendon's horizontal force at its anchor: what the ground gives the body, m (X'' + a_g)
 //! ```
 //!
 //! The legs are those of a rigid A-frame, the lines from the mass to its feet; those of a solid

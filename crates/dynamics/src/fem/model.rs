@@ -8,12 +8,12 @@
 //!     p_x = X + s b (cos theta - 1) - h sin theta           p_z = Z - s b sin theta + h (1 - cos theta)
 //!   gap, closed while it presses:   N =  k1_v (a_z - p_z)            (> 0: the ground pushes the foot up)
 //!                                   H = -k1_h (p_x - a_x - anchor)   (only while N acts)
-//!   m  X''     = -m ug'' + sum H                m2_h a_x'' = -m2_h ug'' - H - k2_h a_x - c_h a_x'
-//!   m  Z''     = -m (g + vg'') + sum N          m2_v a_z'' = -m2_v vg'' - N - k2_v a_z - c_v a_z'
+//!   m  X''     = -m a_g + sum H                 m2_h a_x'' = -m2_h a_g - H - k2_h a_x - c_h a_x'
+//!   m  Z''     = -m (g + a_v) + sum N           m2_v a_z'' = -m2_v a_v - N - k2_v a_z - c_v a_z'
 //!   I  theta'' = sum ( H dp_x/dtheta + N dp_z/dtheta )
 //! ```
 //!
-//! Displacements are relative to the ground, whose acceleration is (ug'', vg''), vg'' upwards;
+//! Displacements are relative to the ground, whose acceleration is (a_g, a_v), a_v upwards;
 //! gravity acts on the body only, so an open absorber rests at zero, as in the engineer's deck,
 //! where the weight is a load on the mass.
 
@@ -279,7 +279,7 @@ impl Model {
         FootForce { px_th, pz_th, horizontal, vertical }
     }
 
-    /// Forces on the seven coordinates at ground acceleration (ug'', vg'') (m/s2).
+    /// Forces on the seven coordinates at ground acceleration (a_g, a_v) (m/s2).
     #[inline(always)]
     pub(crate) fn forces(
         &self,

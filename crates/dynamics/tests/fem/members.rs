@@ -126,7 +126,7 @@ fn base_shear_is_mass_times_absolute_acceleration_and_legs_carry_the_weight_at_r
     let [shear, axial, _, _, other, ..] = demands.rows[2];
     assert!(shear.abs() < 1e-9 * weight && axial == other);
     assert!((axial * 2.0 / alpha.cos() / weight + 1.0).abs() < 1e-6, "{axial}");
-    // a rigid body on one foot under steady ground acceleration, before it moves: H = m ug''
+    // a rigid body on one foot under steady ground acceleration, before it moves: H = m a_g
     let push = 0.05 * GRAVITY;
     let steady = Record { accel: vec![0.0, push, push, push], dt: 1.0, ..el_centro() };
     let (_, demands) = run(&structure, springs, &steady, &Members::default());
@@ -138,7 +138,7 @@ fn base_shear_is_mass_times_absolute_acceleration_and_legs_carry_the_weight_at_r
 /// theta theta', so that it turns the body back by c (2 b cos theta)^2 theta':
 ///
 /// ```text
-///   I0 theta'' = -m g R sin(alpha s - theta) - m ug'' R cos(alpha s - theta) - c (2 b cos theta)^2 theta'
+///   I0 theta'' = -m g R sin(alpha s - theta) - m a_g R cos(alpha s - theta) - c (2 b cos theta)^2 theta'
 /// ```
 ///
 /// by Runge and Kutta's steps of `dt / parts`; at an impact the rate is multiplied by e.

@@ -141,7 +141,7 @@ impl GroundRow {
 }
 
 /// Forces of the left foot and of the right one of a standing body of this weight (N), over a
-/// ground of u_g/g and gamma.
+/// ground of a_g/g and gamma.
 pub(super) fn standing_feet(
     body: &Body<f64>,
     weight: f64,

@@ -63,7 +63,7 @@ mod tests {
         scalar::GRAVITY,
     };
 
-    /// A wall 9 m by 6 m of weight W under a tendon of 0.48 W: m ug'' h = (W + T) b.
+    /// A wall 9 m by 6 m of weight W under a tendon of 0.48 W: m a_g h = (W + T) b.
     #[test]
     fn a_tendon_raises_what_lifts_a_wall_and_a_damper_does_not() {
         let wall = Structure::block(9.0, 6.0, 2.5e6 / GRAVITY).unwrap();

@@ -1,10 +1,10 @@
 //! Leaving the ground, and coming to rest on it.
 //!
-//! Uplift: a resting body stays down until |u_g| > (g + a_v) tan(alpha), then leans away, s =
-//! -sgn(u_g). Both sides are linear between two samples. In terms of gamma = 1 + a_v/g: |u_g|/g >
+//! Uplift: a resting body stays down until |a_g| > (g + a_v) tan(alpha), then leans away, s =
+//! -sgn(a_g). Both sides are linear between two samples. In terms of gamma = 1 + a_v/g: |a_g|/g >
 //! gamma tan(alpha).
 //!
-//! Rest: with restitution e < 1 and |u_g| < (g + a_v) tan(alpha) the body makes infinitely many
+//! Rest: with restitution e < 1 and |a_g| < (g + a_v) tan(alpha) the body makes infinitely many
 //! ever smaller hops in a finite time. Near the ground w'' = -d with d between bounds, so a hop
 //! that starts at rate v lasts at most 2 v/d_min, is at most v^2/(2 d_min) high, and ends at a rate
 //! of at most v sqrt(d_max/d_min). Hence all hops together last at most
@@ -13,7 +13,7 @@
 //! 2 v / ( d_min [1 - e sqrt(d_max/d_min)] )
 //! ```
 //!
-//! If that is less than what is left of the interval between two samples, in which |u_g| stays
+//! If that is less than what is left of the interval between two samples, in which |a_g| stays
 //! below the limit, the body lies still at the next sample: nothing is neglected but the list of
 //! its last impacts.
 
@@ -28,7 +28,7 @@ const FLOOR: f64 = f64::EPSILON;
 const GRAZE: f64 = 4.0 * f64::EPSILON;
 
 /// When and to which side a body resting at fraction x of an interval lifts in what is left of it.
-/// u_g/g is a + da x and gamma is g + dg x, each given as (a, da); lift is tan(alpha).
+/// a_g/g is a + da x and gamma is g + dg x, each given as (a, da); lift is tan(alpha).
 pub(crate) fn uplift<S: Scalar>(
     x: S,
     (a, da): (S, S),
@@ -116,9 +116,9 @@ pub(crate) struct Hop {
     pub rate: f64,
     /// Time left in the interval (s).
     pub left: f64,
-    /// u_g/g now.
+    /// a_g/g now.
     pub now: f64,
-    /// u_g/g at the end of the interval.
+    /// a_g/g at the end of the interval.
     pub then: f64,
     /// gamma now, and at the end of the interval.
     pub gamma: (f64, f64),

@@ -4,7 +4,7 @@
 //! of the body:
 //!
 //! ```text
-//! w'' = -p^2 [ gamma sin psi + b cos psi ],   gamma = 1 + a_v/g,   b = s u_g/g,   s = sgn(theta)
+//! w'' = -p^2 [ gamma sin psi + b cos psi ],   gamma = 1 + a_v/g,   b = s a_g/g,   s = sgn(theta)
 //! ```
 //!
 //! Time runs as x = (t - t0)/h from 0 to 1 over the step, in which gamma = gamma0 + dgamma x and b

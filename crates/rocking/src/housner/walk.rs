@@ -53,12 +53,12 @@ pub(crate) struct Setting<'a, S> {
     pub accel: &'a [f64],
     /// Its vertical part, positive upwards (m/s2); zero where it has no sample.
     pub vertical: &'a [f64],
-    /// u_g/g per unit of `accel`, a_v/g per unit of `vertical`.
+    /// a_g/g per unit of `accel`, a_v/g per unit of `vertical`.
     pub unit: S,
     pub alpha: S,
     pub sin_alpha: S,
     pub cos_alpha: S,
-    /// tan alpha: the |u_g|/g at which the body lifts.
+    /// tan alpha: the |a_g|/g at which the body lifts.
     pub lift: S,
     pub p2: S,
     /// R/g (s2).
@@ -89,7 +89,7 @@ pub(crate) struct WalkState<S> {
 /// The ground at an instant.
 #[derive(Clone, Copy)]
 pub(crate) struct Sample<S> {
-    /// u_g/g.
+    /// a_g/g.
     pub a: S,
     /// gamma = 1 + a_v/g.
     pub gamma: S,

@@ -53,7 +53,7 @@ fn a_peak_at_the_limit_or_one_ulp_beyond_does_no_harm() {
     }
 }
 
-/// Lift-off where the record passes the limit: w'' = p^2 cos(alpha) (|u_g|/g - tan(alpha)) grows
+/// Lift-off where the record passes the limit: w'' = p^2 cos(alpha) (|a_g|/g - tan(alpha)) grows
 /// from zero, w = c t^3/6.
 #[test]
 fn uplift_inside_a_sample_starts_with_no_acceleration() {

@@ -2,7 +2,7 @@
 //! with sub-steps.
 //!
 //! Literals are rounded from its 25 digits. Where the body comes to rest between them, that program
-//! was given a rule of its own: rest once the rate after an impact is below 1e-18 rad/s and |u_g| <
+//! was given a rule of its own: rest once the rate after an impact is below 1e-18 rad/s and |a_g| <
 //! g tan(alpha).
 
 #![allow(clippy::excessive_precision)] // the digits of the reference as it printed them

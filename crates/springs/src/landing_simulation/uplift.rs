@@ -1,10 +1,10 @@
 //! One uplift: the ground swings from one side to beyond the uplift limit of the other.
 //!
 //! ```text
-//!  ug''/(g tan alpha)  =  0 .. -0.8  in 0.1 s,   -0.8 .. 1.7  in t_r, as a half cosine,   1.7 for a moment more
+//!  a_g/(g tan alpha)  =  0 .. -0.8  in 0.1 s,   -0.8 .. 1.7  in t_r, as a half cosine,   1.7 for a moment more
 //! ```
 //!
-//! A stance that deflects by x = ug''/w^2 (w: its sway frequency) has the velocity ug'''/w^2 at
+//! A stance that deflects by x = a_g/w^2 (w: its sway frequency) has the velocity a_g'/w^2 at
 //! uplift; undamped sway changes it to between zero and twice that, depending on w t_r. So there
 //! are many t_r: those of earthquakes and, as what is wanted does not depend on the size of a
 //! structure alone, some in units of 1/p.

@@ -38,7 +38,7 @@ impl Model {
         self.elements.add_energy(twice * 0.5, q)
     }
 
-    /// Power of the base excitation in the moving frame, -ug'' (m X' + sum m2_h a_x') - vg'' (m Z'
+    /// Power of the base excitation in the moving frame, -a_g (m X' + sum m2_h a_x') - a_v (m Z'
     /// + sum m2_v a_z') (W).
     #[inline(always)]
     pub(crate) fn input_power(&self, v: &Vector, [ground, up]: [f64; 2]) -> f64 {

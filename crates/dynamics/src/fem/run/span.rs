@@ -133,7 +133,7 @@ impl TimeLoop<'_> {
     /// foot,
     ///
     /// ```text
-    ///   (I + m R^2) theta'' = -m (ug'' dX/dtheta + g dZ/dtheta)
+    ///   (I + m R^2) theta'' = -m (a_g dX/dtheta + g dZ/dtheta)
     /// ```
     pub(super) fn pendulum(&self, h: f64) -> [Vector; 3] {
         let Self { model, scales, state, .. } = self;
