@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use dynamics::fem::{self, QUANTITIES};
 use numpy::PyArray1;
-use parameters::answers::{ModelComparison, both};
+use parameters::answers::{ModelComparison, compare_models};
 use pyo3::{
     prelude::*,
     types::{PyDict, PyTuple},
@@ -308,7 +308,7 @@ pub fn simulate(
         (structure, springs, Record(record.clone().into_owned()), e, friction).into_pyobject(py)?;
     let simulation = interruptible(py, |_| {
         let (body, dt) = (structure.body(), record.dt);
-        let both = both(&body, e, &springs.chains(), &Members::default(), &record);
+        let both = compare_models(&body, e, &springs.chains(), &Members::default(), &record);
         let report = HousnerReport::new(&body, e, &record, &both.rocking, friction);
         let verdict = both.verdict(&body, dt, &report.conditioning);
         let findings = filed(reference::all(&structure.core, &record, &both, &report, &verdict));

@@ -67,7 +67,7 @@ impl<'a> MembersReport<'a> {
 mod tests {
     use super::*;
     use dynamics::spring::{Design, Springs};
-    use parameters::answers::both;
+    use parameters::answers::compare_models;
     use rocking::{
         members::{Damper, Members},
         structure::Structure,
@@ -90,7 +90,7 @@ mod tests {
         let springs = Springs { vertical: design, horizontal: design }.chains(120e3);
         let record = Record::new("rest", 0.01, vec![0.0; 10]).unwrap();
         let of = |members: &Members| {
-            let both = both(&body, body.restitution(), &springs, members, &record);
+            let both = compare_models(&body, body.restitution(), &springs, members, &record);
             let report = MembersReport::new(&both.matched, &both.demands, both.with.as_ref());
             serde_json::to_value(report).unwrap()
         };

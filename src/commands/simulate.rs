@@ -9,7 +9,7 @@ use super::{
     common::{GroundOptions, RecordOptions, restitution},
     members, terminal,
 };
-use parameters::{Parameters, answers::both};
+use parameters::{Parameters, answers::compare_models};
 use report::{
     filed,
     reference::{self, HousnerReport},
@@ -58,7 +58,7 @@ pub fn run(o: &SimulateOptions) -> Result<(), CommandError> {
         not_an_input(path, inputs.map(PathBuf::as_path))?;
     }
     let friction = o.ground.friction()?;
-    let both = both(&body, e, &parameters.chains(), &parameters.members(), &record);
+    let both = compare_models(&body, e, &parameters.chains(), &parameters.members(), &record);
     if let Some(path) = &out {
         write_file(path, history_csv(record.dt, &both).as_bytes())?;
     }

@@ -130,7 +130,7 @@ impl ElasticCase {
             });
         }
         let members = Members { damper: file.damper, tendon: file.tendon, friction: None };
-        let members = structure.bears(members).map_err(of_elastic)?;
+        let members = structure.check_members(members).map_err(of_elastic)?;
         yardstick::one_of_two(path, text)?;
         let ElasticTuning { accuracy, peaks, max_omega_hz } = file.tuning;
         check_stiffness(path, accuracy, peaks, max_omega_hz)?;

@@ -112,7 +112,7 @@ impl Match {
         let landings = effective_restitution(before());
         let largest = before().filter(|l| l.impact).map(|l| l.kinetic).fold(0.0, f64::max);
         let error = |least: f64| error_above(&landings, restitution, least);
-        let firm = firm_energy(body);
+        let firm = threshold_energy(body);
         let inertia = body.mass * body.radius().powi(2) / body.mass_share();
         let kinetic = |impact: &Impact<f64>| 0.5 * inertia * impact.rate_before.powi(2);
         Self {
@@ -130,7 +130,7 @@ impl Match {
             impacts_housner_firm: Some(
                 impacts.iter().filter(|impact| kinetic(impact) > firm).count(),
             ),
-            impacts_fem_firm: Some(firm_impacts(body, fem, end)),
+            impacts_fem_firm: Some(impacts_above_threshold(body, fem, end)),
             bounces: before().filter(|l| l.bounced).count(),
             settlement_m: -fem.initial_z,
             restitution_error_max: error(LANDINGS_THAT_MATTER * largest).unwrap_or(0.0),
@@ -144,13 +144,13 @@ impl Match {
 pub const LEAST_LEAN: f64 = 0.02;
 
 /// Kinetic energy above which impacts count (J).
-fn firm_energy(body: &Body<f64>) -> f64 {
+fn threshold_energy(body: &Body<f64>) -> f64 {
     body.fall(LEAST_LEAN * body.alpha())
 }
 
 /// Impacts of a history up to a time (s), those above the energy threshold.
-pub fn firm_impacts(body: &Body<f64>, history: &History, end: f64) -> usize {
-    let counts = |l: &&Landing| l.time <= end && l.impact && l.kinetic > firm_energy(body);
+pub fn impacts_above_threshold(body: &Body<f64>, history: &History, end: f64) -> usize {
+    let counts = |l: &&Landing| l.time <= end && l.impact && l.kinetic > threshold_energy(body);
     history.landings.iter().filter(counts).count()
 }
 

@@ -41,8 +41,8 @@ pub mod rebound;
 pub mod recipe;
 pub mod rigid;
 
-/// Lean of a body over alpha, rotation of a base over that at which it topples, beyond which it
-/// falls.
+/// Rotation at which a history ends as overturned, over alpha of a body or the rotation at which a
+/// base topples: beyond 1 a pulse may still right it; 2 is a convention.
 pub(crate) const FALLING: f64 = 2.0;
 
 pub use analysis::{FixedStepAnalysis, FixedStepHistory, FixedStepOutcome, GaveUp, StepSettings};

@@ -24,7 +24,7 @@ pub struct ModelComparison {
     /// Housner's history; its `outcome` says how it ended.
     pub rocking: Rocking<f64>,
     /// Housner's history without the vertical component, if the record has one.
-    pub level: Option<Rocking<f64>>,
+    pub housner_without_vertical: Option<Rocking<f64>>,
     /// Motion of the centre of mass in Housner's history.
     pub housner: Motion,
     /// The finite element history of the rigid body; its `outcome` says how it ended.
@@ -38,7 +38,7 @@ pub struct ModelComparison {
 }
 
 /// Run both models over a record; with members, the finite elements once more with them.
-pub fn both(
+pub fn compare_models(
     body: &Body<f64>,
     restitution: f64,
     springs: &Springs<Chain>,
@@ -46,17 +46,27 @@ pub fn both(
     record: &Record,
 ) -> ModelComparison {
     let options = housner::RockingOptions::on(record, restitution);
-    let level = housner::RockingOptions { vertical: None, ..options.clone() };
+    let without_vertical = housner::RockingOptions { vertical: None, ..options.clone() };
     let rocking = housner::solve(body, record.dt, &record.accel, &options);
-    let level =
-        record.vertical.as_ref().map(|_| housner::solve(body, record.dt, &record.accel, &level));
+    let housner_without_vertical = record
+        .vertical
+        .as_ref()
+        .map(|_| housner::solve(body, record.dt, &record.accel, &without_vertical));
     let motion = rocking.motion(body);
     let answer = |members: &Members| {
         with_members(body, restitution, springs, members, record, (&rocking, &motion))
     };
     let MemberHistory { history: fem, demands, matched, .. } = answer(&Members::default());
     let with = (!members.is_none()).then(|| answer(members));
-    ModelComparison { rocking, level, housner: motion, fem, matched, demands, with }
+    ModelComparison {
+        rocking,
+        housner_without_vertical,
+        housner: motion,
+        fem,
+        matched,
+        demands,
+        with,
+    }
 }
 
 /// The finite elements with members through a record, beside Housner's equation with a tendon and
@@ -101,7 +111,7 @@ pub fn with_members(
 /// match is then over the samples that both histories have.
 pub fn compare(parameters: &Parameters, record: &Record) -> (ModelComparison, Verdict) {
     let (body, e) = (parameters.structure.body(), parameters.restitution());
-    let both = both(&body, e, &parameters.chains(), &parameters.members(), record);
+    let both = compare_models(&body, e, &parameters.chains(), &parameters.members(), record);
     let options = housner::RockingOptions::on(record, e);
     let verdict = both.verdict(
         &body,
@@ -142,7 +152,7 @@ impl ModelComparison {
     pub fn verdict(&self, body: &Body<f64>, dt: f64, conditioning: &Conditioning) -> Verdict {
         let verdict =
             Verdict::new(body, dt, (&self.rocking, &self.fem), &self.matched, conditioning);
-        match &self.level {
+        match &self.housner_without_vertical {
             Some(level) => verdict.beside(body, dt, level),
             None => verdict,
         }
@@ -214,7 +224,8 @@ mod tests {
             let design = Design::from_kc(0.3, 0.1, 0.75, hz);
             let springs =
                 Springs { vertical: design, horizontal: design }.chains(structure.mass_kg);
-            let both = both(&structure.body(), 0.97, &springs, &Members::default(), &record);
+            let both =
+                compare_models(&structure.body(), 0.97, &springs, &Members::default(), &record);
             assert!(both.fem.impacts() > 3);
             let weight = structure.mass_kg * rocking::scalar::GRAVITY;
             // the leg carries m g R cos(alpha - theta) less the centrifugal force, in compression
@@ -244,7 +255,7 @@ mod tests {
             damper: Some(Damper { c: 2e5 }),
             friction: None,
         };
-        let of = |members| both(&body, body.restitution(), &springs, &members, &record);
+        let of = |members| compare_models(&body, body.restitution(), &springs, &members, &record);
         let both = of(members);
         let with = both.with.as_ref().unwrap();
         let matched = &with.matched;
@@ -294,7 +305,8 @@ mod tests {
         let record = Record::new("push", 0.02, accel).unwrap();
         let design = Design::from_kc(0.3, 0.1, 0.75, 320.0);
         let springs = Springs { vertical: design, horizontal: design }.chains(structure.mass_kg);
-        let found = both(&body, body.restitution(), &springs, &Members::default(), &record);
+        let found =
+            compare_models(&body, body.restitution(), &springs, &Members::default(), &record);
         let told = found.matched.overturned_housner_s.unwrap();
         assert!((told - time).abs() < 1e-7, "{told} {time}");
     }

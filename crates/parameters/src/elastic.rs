@@ -224,7 +224,7 @@ impl ElasticParameters {
             )));
         }
         let structure = parameters.structure.checked().map_err(|e| value(e.to_string()))?;
-        structure.bears(parameters.members()).map_err(|e| value(e.to_string()))?;
+        structure.check_members(parameters.members()).map_err(|e| value(e.to_string()))?;
         parameters.record.iter().try_for_each(|row| row.check(path))?;
         let body = structure.body();
         let scale = UnitScale { mass: body.mass, height: body.height };

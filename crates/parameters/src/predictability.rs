@@ -227,7 +227,7 @@ pub fn simulate(parameters: &Parameters, record: &Record) -> History {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::answers::both;
+    use crate::answers::compare_models;
     use dynamics::spring::Design;
     use rocking::members::{Damper, Members};
 
@@ -251,7 +251,7 @@ mod tests {
         let springs = Springs { vertical: design, horizontal: design }.chains(120e3);
         let damper = Some(Damper { c: 1e5 });
         let members = Members { damper, ..Members::default() };
-        let both = both(&body, body.restitution(), &springs, &members, &record);
+        let both = compare_models(&body, body.restitution(), &springs, &members, &record);
         let with = both.with.as_ref().unwrap();
         assert!(with.history.landings.is_empty());
         let of = MembersConditioning::new(&body, &springs, &record, with);

@@ -24,7 +24,7 @@ use fixed_steps::FixedStepHistory;
 use limits::springs_findings;
 use parameters::{
     MembersAccuracy, PaperProcedure, Parameters,
-    answers::{MemberHistory, ModelComparison, both, with_members},
+    answers::{MemberHistory, ModelComparison, compare_models, with_members},
     rigid_forces::design_forces,
 };
 use peaks::{peaks, peaks_to};
@@ -66,14 +66,16 @@ impl RigidRun {
             let other = Parameters::new(case.structure, springs);
             let none = Members::default();
             let matched =
-                both(&job.body, case.restitution, &other.chains(), &none, &job.record).matched;
+                compare_models(&job.body, case.restitution, &other.chains(), &none, &job.record)
+                    .matched;
             PaperProcedure { vertical: other.vertical, horizontal: other.horizontal, matched }
         };
         let paper = job.paper.as_ref().filter(|_| case.tuning.objective == Objective::Landing);
         let recovered = table_1::of(&case.structure).filter(|_| job.paper.is_some());
         let chains = Parameters::new(case.structure, &job.springs).chains();
         let own = || {
-            let both = both(&job.body, case.restitution, &chains, &case.members, &job.record);
+            let both =
+                compare_models(&job.body, case.restitution, &chains, &case.members, &job.record);
             (both, Parameters::of(&case, &job))
         };
         let others = || {
@@ -238,7 +240,7 @@ impl RigidRun {
         let record = excitation.used().ok()?;
         let Self { case, job, .. } = self;
         let chains = self.parameters.chains();
-        let both = both(&job.body, case.restitution, &chains, &case.members, &record);
+        let both = compare_models(&job.body, case.restitution, &chains, &case.members, &record);
         let kind = case.structure.kind;
         // where Housner's solution ends, forces are of springs
         let softer = softer(case, job, &record, &both);

@@ -122,7 +122,7 @@ pub fn members_csv(
 mod tests {
     use super::*;
     use dynamics::spring::{Design, Springs};
-    use parameters::answers::both;
+    use parameters::answers::compare_models;
     use rocking::{members::Members, scalar::GRAVITY, structure::Structure};
     use strong_motion::Record;
 
@@ -147,7 +147,8 @@ mod tests {
         let body = block.body::<f64>();
         let design = Design::from_kc(0.3, 0.1, 0.75, 160.0);
         let springs = Springs { vertical: design, horizontal: design }.chains(1e3);
-        let both = both(&body, body.restitution(), &springs, &Members::default(), &record);
+        let both =
+            compare_models(&body, body.restitution(), &springs, &Members::default(), &record);
         let of = (Kind::Block, &body);
         let text = members_csv(of, 0.01, (&both.fem, &demands), Instants::Samples);
         let row = |text: &str| -> Vec<f64> {

@@ -18,7 +18,7 @@ use rocking::{
     structure::Body,
 };
 use strong_motion::Record;
-use validation::{ComparisonObserver, push};
+use validation::{ComparisonObserver, effective_acceleration};
 
 /// Cells that are taken at a time: enough to fill the lanes again where a history ends early.
 const LOCK_STEP: usize = 256;
@@ -214,7 +214,7 @@ pub(super) fn elements(wanted: &[WantedHistory<'_>], record: &Record) -> Vec<Ans
         .map(|w| (scaled(&record.accel, w.scale), scaled(record.up(), w.scale)))
         .collect();
     let pushes: Vec<Cow<[f64]>> =
-        grounds.iter().map(|(accel, vertical)| push(accel, vertical)).collect();
+        grounds.iter().map(|(accel, vertical)| effective_acceleration(accel, vertical)).collect();
     let case = |i: usize| fem::Analysis {
         vertical: &grounds[i].1,
         // peaks and comparisons alone

@@ -54,7 +54,7 @@ pub mod verdict;
 pub use peaks::{HousnerForces, PeakErrors};
 pub use row::{RecordOutcome, Row, Suite};
 pub use statistics::{Confusion, GeometricMean, PREDICTABLE, Quantiles, Summary, Validation};
-pub use stream::{ComparisonObserver, push};
+pub use stream::{ComparisonObserver, effective_acceleration};
 
 use dynamics::{
     fem::Control,

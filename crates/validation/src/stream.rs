@@ -15,15 +15,15 @@ use rocking::{housner::topples, scalar::GRAVITY, structure::Body};
 /// Effective horizontal acceleration a_g/(1 + a_v/g) at the samples (m/s2), against which a body
 /// beyond alpha must fall. Its maximum lies at a sample; infinite where the ground falls faster
 /// than the body. `vertical` is empty where there is none.
-pub fn push<'a>(accel: &'a [f64], vertical: &[f64]) -> Cow<'a, [f64]> {
+pub fn effective_acceleration<'a>(accel: &'a [f64], vertical: &[f64]) -> Cow<'a, [f64]> {
     if vertical.is_empty() {
         return Cow::Borrowed(accel);
     }
-    let push = |(i, a): (usize, &f64)| {
+    let effective = |(i, a): (usize, &f64)| {
         let gamma = 1.0 + vertical.get(i).map_or(0.0, |up| up / GRAVITY);
         if gamma > 0.0 { a / gamma } else { f64::INFINITY }
     };
-    Cow::Owned(accel.iter().enumerate().map(push).collect())
+    Cow::Owned(accel.iter().enumerate().map(effective).collect())
 }
 
 /// sqrt( sum (x - x_ref)^2 / sum x_ref^2 ) of samples that come one by one.

@@ -35,7 +35,7 @@ pub enum Program {
 }
 
 /// What a deck's run left behind.
-pub(super) struct Ran {
+pub(super) struct ProgramOutput {
     /// Whether the deck found its peaks within 1 % of ours.
     pub good: bool,
     pub report: String,
@@ -76,7 +76,7 @@ impl Program {
         deck: &Path,
         patience: Duration,
         progress: &dyn Fn(usize),
-    ) -> Result<Ran, VerifyError> {
+    ) -> Result<ProgramOutput, VerifyError> {
         let logs = [deck.with_extension("out"), deck.with_extension("err")];
         let folder = |path: &Path| {
             let path = path.display().to_string();
@@ -123,7 +123,7 @@ impl Program {
         let complaint = text(&logs[1]).map_err(folder(&logs[1]))?;
         match status.code() {
             Some(code @ (0 | 1)) if report.contains("within 1 %:") => {
-                Ok(Ran { good: code == 0, report })
+                Ok(ProgramOutput { good: code == 0, report })
             }
             Some(NO_OPENSEES) if matches!(self, Self::Python(_)) => {
                 Err(VerifyError::NoOpenSees { python: self.name() })

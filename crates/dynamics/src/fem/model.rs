@@ -88,8 +88,8 @@ impl Pose {
 /// body.
 pub const MASSLESS_ROTATION: f64 = 2e-3;
 
-/// Share of 1/Omega_n below which the time that dampers hold up a massless rotation is none.
-const AT_ONCE: f64 = 1e-2;
+/// Share of 1/Omega_n below which the time by which dampers delay a massless rotation is none.
+const LEAST_DELAY: f64 = 1e-2;
 
 /// Body and springs, ready to compute with.
 #[derive(Clone, Copy, Debug)]
@@ -172,7 +172,7 @@ impl Model {
     pub(super) fn jumps(&self) -> bool {
         let spring = &self.springs.vertical;
         let settling = (self.body.mass / spring.k1).sqrt();
-        let slow = |dampers: &Dampers| dampers.c() > AT_ONCE * spring.k1 * settling;
+        let slow = |dampers: &Dampers| dampers.c() > LEAST_DELAY * spring.k1 * settling;
         self.massless() && !self.law.slips() && !self.elements.dampers.as_ref().is_some_and(slow)
     }
 

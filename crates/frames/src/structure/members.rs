@@ -15,7 +15,7 @@ impl ElasticStructure {
     /// # Errors
     /// A number that makes no sense; a tendon under which a column would buckle or shorten too
     /// much.
-    pub fn bears(&self, members: Members) -> Result<Members, ElasticError> {
+    pub fn check_members(&self, members: Members) -> Result<Members, ElasticError> {
         let body = Body { height: self.height(), ..self.body() };
         let members = members.checked(&body)?;
         let tension = members.tendon.map_or(0.0, |tendon| tendon.pretension);

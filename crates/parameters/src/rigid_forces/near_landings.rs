@@ -72,7 +72,7 @@ pub(super) fn near_landings(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::answers::both;
+    use crate::answers::compare_models;
     use dynamics::spring::{Design, Springs};
     use rocking::{members::Members, regime::ground_forces, structure::Structure};
 
@@ -89,7 +89,8 @@ mod tests {
         let record = record.with_vertical(Record::new("up", 0.01, up).unwrap()).unwrap();
         let design = Design::from_kc(0.3, 0.1, 0.75, 10240.0);
         let springs = Springs { vertical: design, horizontal: design }.chains(640.0);
-        let both = both(&body, body.restitution(), &springs, &Members::default(), &record);
+        let both =
+            compare_models(&body, body.restitution(), &springs, &Members::default(), &record);
         let of = (&both.fem, &both.demands);
         let housner = ground_forces(&body, (&record.accel, record.up()), &both.rocking);
         let weight = 640.0 * GRAVITY;

@@ -1,7 +1,7 @@
 //! Forces of a rigid body, beside statics and what a dashpot adds.
 
 use super::*;
-use crate::answers::{both, with_members};
+use crate::answers::{compare_models, with_members};
 use dynamics::spring::{Design, Springs};
 use rocking::{
     members::{Damper, Members, Tendon},
@@ -16,7 +16,7 @@ fn forces(structure: &Structure, hz: f64, accel: Vec<f64>) -> DesignForces {
     let design = Design::from_kc(0.3, 0.1, 0.75, hz);
     let springs = Springs { vertical: design, horizontal: design }.chains(structure.mass_kg);
     let body = structure.body();
-    let both = both(&body, body.restitution(), &springs, &Members::default(), &record);
+    let both = compare_models(&body, body.restitution(), &springs, &Members::default(), &record);
     design_forces(structure.kind, &body, &record, &both, None, None)
 }
 
@@ -90,7 +90,7 @@ fn a_dashpot_pulls_on_the_leg_or_the_base_that_it_holds() {
         let springs = springs.chains(structure.mass_kg);
         let members = Members { damper: Some(Damper { c }), ..Members::default() };
         let (body, e) = (structure.body(), structure.body::<f64>().restitution());
-        let both = both(&body, e, &springs, &members, &record);
+        let both = compare_models(&body, e, &springs, &members, &record);
         let of = (&both.rocking, &both.housner);
         let softer = with_members(&body, e, &springs, &members, &record, of);
         let all = design_forces(structure.kind, &body, &record, &both, Some(&softer), None);
@@ -164,7 +164,7 @@ fn tied(structure: &Structure, tendon: Tendon, record: &Record) -> (DesignForces
         let design = Design::from_kc(0.3, 0.1, 0.75, hz);
         Springs { vertical: design, horizontal: design }.chains(structure.mass_kg)
     };
-    let both = both(&body, e, &springs(20480.0), &members, record);
+    let both = compare_models(&body, e, &springs(20480.0), &members, record);
     let of = (&both.rocking, &both.housner);
     let softer = with_members(&body, e, &springs(5120.0), &members, record, of);
     let all = design_forces(structure.kind, &body, record, &both, Some(&softer), None);

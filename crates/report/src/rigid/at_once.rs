@@ -7,7 +7,7 @@ use cases::Case;
 use dynamics::spring::{Design, Springs};
 use parameters::{
     Parameters,
-    answers::{ModelComparison, both},
+    answers::{ModelComparison, compare_models},
 };
 use results::Finding;
 use strong_motion::{Record, RecordError};
@@ -36,7 +36,7 @@ impl RunAtOnce {
         let (structure, e) = (case.structure, case.restitution);
         let (body, record) = (structure.body::<f64>(), case.excitation.used()?);
         let parameters = Parameters::new(structure, springs);
-        let both = both(&body, e, &parameters.chains(), &case.members, &record);
+        let both = compare_models(&body, e, &parameters.chains(), &case.members, &record);
         let report = HousnerReport::new(&body, e, &record, &both.rocking, friction)
             .with_members(&body, &record, &both)
             .with_conditioning(&body, &parameters.chains(), &record, &both);

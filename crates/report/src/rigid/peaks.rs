@@ -1,6 +1,6 @@
 //! Largest displacements of a rigid body, as an engineer quotes them.
 
-use dynamics::{compare::firm_impacts, fem::History};
+use dynamics::{compare::impacts_above_threshold, fem::History};
 use parameters::answers::ModelComparison;
 use results::{PeakPair, Peaks};
 use rocking::{
@@ -48,7 +48,7 @@ pub(super) fn peaks_to(
         springs_end_s: None,
         with_members: members.map(|with| {
             let fell = with.matched.overturned_fem_s;
-            let firm = firm_impacts(body, &with.history, fell.unwrap_or(f64::INFINITY));
+            let firm = impacts_above_threshold(body, &with.history, fell.unwrap_or(f64::INFINITY));
             springs(firm, fell, &with.history)
         }),
         with_members_end_s: members.and_then(|with| with.history.outcome.ends_early()),
@@ -60,7 +60,7 @@ pub(super) fn peaks_to(
 mod tests {
     use super::*;
     use dynamics::spring::{Design, Springs};
-    use parameters::answers::both;
+    use parameters::answers::compare_models;
     use rocking::{
         members::{Damper, Members},
         structure::Structure,
@@ -84,7 +84,7 @@ mod tests {
         let springs = Springs { vertical: design, horizontal: design }.chains(structure.mass_kg);
         let damper = Some(Damper { c: 3e6 });
         let members = Members { damper, ..Members::default() };
-        let both = both(&body, body.restitution(), &springs, &members, &record);
+        let both = compare_models(&body, body.restitution(), &springs, &members, &record);
         let with = both.with.as_ref().unwrap();
         let toppled = both.matched.overturned_housner_s.unwrap();
         assert!(toppled < 9.0 && with.matched.overturned_fem_s.is_none(), "{toppled}");
@@ -103,7 +103,8 @@ mod tests {
         let record = Record::el_centro();
         let design = Design::from_kc(0.3, 0.1, 0.75, 160.0);
         let springs = Springs { vertical: design, horizontal: design }.chains(structure.mass_kg);
-        let both = both(&body, body.restitution(), &springs, &Members::default(), &record);
+        let both =
+            compare_models(&body, body.restitution(), &springs, &Members::default(), &record);
         let all = peaks(structure.kind, &body, record.dt, &both);
         let part = peaks_to(Some(5.0), structure.kind, &body, record.dt, &both);
         let samples = samples_until(Some(5.0), record.dt);

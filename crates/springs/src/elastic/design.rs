@@ -209,11 +209,11 @@ fn alike(a: &FootingInertia, b: &FootingInertia) -> bool {
 
 /// Energy of the springs over that of the structure, over all sways.
 fn compliance_ratio_of(standing: &Standing, corners: &[Springs<Chain>]) -> f64 {
-    standing.responses.iter().map(|sway| total_give(sway, corners)).sum()
+    standing.responses.iter().map(|sway| total_compliance(sway, corners)).sum()
 }
 
 /// The same in one of them.
-fn total_give(sway: &FixedResponse, corners: &[Springs<Chain>]) -> f64 {
+fn total_compliance(sway: &FixedResponse, corners: &[Springs<Chain>]) -> f64 {
     let each = sway.reactions.iter().zip(corners);
     let energy: f64 = each
         .map(|([h, n], s)| h * h / s.horizontal.in_series() + n * n / s.vertical.in_series())

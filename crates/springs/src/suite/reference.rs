@@ -15,7 +15,9 @@ use rocking::{
     structure::Body,
 };
 use strong_motion::Record;
-use validation::{ComparisonObserver, HousnerForces, PREDICTABLE, PeakErrors, push};
+use validation::{
+    ComparisonObserver, HousnerForces, PREDICTABLE, PeakErrors, effective_acceleration,
+};
 
 /// A relative change of the width that must not move a predictable history by more than so many
 /// times what its sensitivity may.
@@ -126,8 +128,8 @@ impl ReferenceMotion {
         })
     }
 
-    fn push(&self) -> Cow<'_, [f64]> {
-        push(&self.accel, self.vertical.as_deref().unwrap_or_default())
+    fn effective_acceleration(&self) -> Cow<'_, [f64]> {
+        effective_acceleration(&self.accel, self.vertical.as_deref().unwrap_or_default())
     }
 
     fn case(&self, body: &Body<f64>, springs: &Springs<Chain>, control: Control) -> Analysis<'_> {
@@ -147,11 +149,13 @@ pub(super) fn errors(
     springs: &Springs<Chain>,
     (control, effort): (Control, &Effort),
 ) -> Vec<TrialErrors> {
-    let pushes: Vec<Cow<[f64]>> = trials.iter().map(ReferenceMotion::push).collect();
+    let effective: Vec<Cow<[f64]>> =
+        trials.iter().map(ReferenceMotion::effective_acceleration).collect();
     let cases: Vec<Analysis> =
         trials.iter().map(|trial| trial.case(body, springs, control)).collect();
     let followed = histories(&cases, |i| {
-        ComparisonObserver::new(body, &trials[i].theta, &pushes[i]).with_forces(&trials[i].forces)
+        ComparisonObserver::new(body, &trials[i].theta, &effective[i])
+            .with_forces(&trials[i].forces)
     });
     let error = |((stream, finish), trial): ((ComparisonObserver, Finish), _)| {
         TrialErrors::of(trial, (&stream, &finish), effort)
@@ -167,8 +171,8 @@ pub(super) fn errors_watched(
     (control, effort): (Control, &Effort),
     watch: &mut dyn Observer,
 ) -> TrialErrors {
-    let push = trial.push();
-    let stream = ComparisonObserver::new(body, &trial.theta, &push).with_forces(&trial.forces);
+    let effective = trial.effective_acceleration();
+    let stream = ComparisonObserver::new(body, &trial.theta, &effective).with_forces(&trial.forces);
     let mut both = WatchedComparison { stream, watch };
     let finish = trial.case(body, springs, control).observe(&mut both);
     TrialErrors::of(trial, (&both.stream, &finish), effort)
