@@ -353,9 +353,7 @@ mod tests {
         let clean: Vec<f64> = (0..40).map(smooth).collect();
         assert_eq!(running_median(&clean, 6), clean);
         let mut struck = clean.clone();
-        for i in 20..25 {
-            struck[i] = 1e9;
-        }
+        struck[20..25].fill(1e9);
         // the middle moves by no more than half a window of the line
         for (found, due) in running_median(&struck, 6).iter().zip(&clean) {
             assert!((found - due).abs() <= 0.6, "{found} {due}");
