@@ -170,6 +170,14 @@ for (const width of [1440, 1024, 390]) {
     await page.context().close();
   }
 }
+// ---- what the page says is of one and the same history
+{
+  const page = await open();
+  await tuned(page);
+  const [word, share] = await page.evaluate(() => [document.getElementById("word").textContent, last.share_of_overturning]);
+  check(share < 0.1 && !word.includes("by chance"), `at ${(100 * share).toFixed(1)} % of overturning: ${word}`);
+  await page.context().close();
+}
 // ---- the browser's own back undoes; a link is a case
 {
   const page = await open("#kind=block&h=1.9&w=0.5");

@@ -3,9 +3,38 @@
 use crate::{FiledParameters, HOUSNER, Run, predictable_to, sentence};
 use files::message::{quantity, significant};
 use results::{DeckEnd, Finding, FindingModel, PeakPair, Weight, feet_end};
+use validation::verdict::{Fate, Verdict};
 
 /// Share of the largest displacement below which that of a part tells nothing.
 const HARDLY: f64 = 0.02;
+
+/// Whether one model overturns and the other stands.
+fn differ_on_overturning(verdict: Verdict) -> bool {
+    let fell = |fate| match fate {
+        Fate::Overturned => Some(true),
+        Fate::Rocked | Fate::NeverLifted => Some(false),
+        Fate::LeftGround | Fate::Failed => None,
+    };
+    let both = [verdict.housner.fate, verdict.finite_elements.fate].map(fell);
+    both == [Some(true), Some(false)] || both == [Some(false), Some(true)]
+}
+
+/// Whether motions near the record, or the two models, differ on an elastic structure's
+/// overturning.
+fn chance_of_elastic<'a>(findings: impl Iterator<Item = &'a Finding> + Clone) -> bool {
+    let fell = findings.clone().find_map(|finding| match finding {
+        Finding::Overturns { .. } => Some(true),
+        Finding::Stands { .. } | Finding::NeverLifts { .. } => Some(false),
+        _ => None,
+    });
+    findings.into_iter().any(|finding| match finding {
+        Finding::ModelsDisagree { .. } => true,
+        Finding::NearMotions { motions, overturned: [reference, springs], .. } => {
+            fell.is_some_and(|fell| reference + springs != if fell { 2 * motions } else { 0 })
+        }
+        _ => false,
+    })
+}
 
 impl Run {
     /// What the run was asked, in one sentence.
@@ -16,6 +45,22 @@ impl Run {
     /// The same before a run has found how far the motion can be foretold: of that nothing.
     pub fn preliminary_verdict(&self) -> String {
         self.in_a_sentence("")
+    }
+
+    /// Whether changes smaller than anybody knows a structure by decide on its overturning: of 1 %
+    /// of width, scale or restitution, of an elastic structure of the record; or both models differ
+    /// on it. Of a rigid body with members that is not looked for.
+    pub fn by_chance(&self) -> bool {
+        match &self.parameters {
+            FiledParameters::Rigid(_) if self.has_members() => false,
+            FiledParameters::Rigid(parameters) => {
+                let overturning = parameters.conditioning.and_then(|row| row.overturning_changes);
+                overturning == Some(true) || parameters.verdict.is_some_and(differ_on_overturning)
+            }
+            FiledParameters::Elastic(_) => {
+                chance_of_elastic(self.findings.iter().map(|filed| &filed.finding))
+            }
+        }
     }
 
     fn in_a_sentence(&self, foretold: &str) -> String {
@@ -182,5 +227,32 @@ impl Run {
             format!("; NOT computed {of} after {} s", significant(time_s, 4))
         };
         ended.map(words).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One motion of 24 near the record that does otherwise is enough.
+    #[test]
+    fn chance_decides_where_a_motion_near_the_record_does_otherwise() {
+        let falls = Finding::Overturns { time_s: 3.0, reference_s: Some(3.0) };
+        let stays = Finding::NeverLifts { pga_g: 0.1, uplift_g: 0.2 };
+        let near = |overturned| Finding::NearMotions {
+            motions: 24,
+            change: 0.01,
+            median_ratio: [None; 2],
+            p90_ratio: [None; 2],
+            overturned,
+        };
+        let chance = |all: &[Finding]| chance_of_elastic(all.iter());
+        assert!(!chance(&[falls.clone(), near([24, 24])]));
+        assert!(chance(&[falls.clone(), near([24, 23])]));
+        assert!(!chance(&[stays.clone(), near([0, 0])]));
+        assert!(chance(&[stays.clone(), near([1, 0])]));
+        let [reference, springs] = ["stands", "overturns at t = 3.00 s"].map(String::from);
+        assert!(chance(&[stays, Finding::ModelsDisagree { reference, springs }]));
+        assert!(!chance(&[falls]));
     }
 }

@@ -110,7 +110,7 @@ function showSaid(said, ofRun = false) {
   h.limit = said.does === "overturns" ? 1.2 * Math.sin(Math.min(1.5, w.alpha)) * 2 * w.radius_m : undefined;
   last = said;
   const share = said.does === "overturns" ? 1 : (said.share_of_overturning ?? 0), back = said.does === "rocks" && share > 1;
-  const box = $("verdict"), doubt = said.findings.some((f) => f.finding === "ill_conditioned" || f.finding === "models_disagree");
+  const box = $("verdict"), doubt = said.by_chance;
   box.className = `verdict ${said.does}${doubt || back ? " doubt" : ""}`;
   const named = state.rec === "elcentro" ? "El Centro 1940" : state.rec === "pulse" ? `a pulse of ${digits(state.amp)} g and ${digits(state.per)} s` : state.file;
   $("asked").textContent = `${state.kind === "aframe" ? "An" : "A"} ${KINDS[state.kind].title} ${withUnit(value("h"), LENGTH)} high, ${state.kind === "frame" ? "on footings " : state.kind === "pier" ? "on a footing " : ""}${withUnit(value("w"), LENGTH)} wide, in ${named}${state.scale === 1 ? "" : ` times ${digits(state.scale)}`}:`;

@@ -91,6 +91,7 @@ fn elastic(case: &ElasticCase) -> Result<Said, WebError> {
         verdict,
         does,
         share_of_overturning,
+        by_chance: false,
         findings,
         taken,
         peaks,

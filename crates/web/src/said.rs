@@ -87,6 +87,8 @@ pub(crate) struct Said {
     pub does: Does,
     /// Largest |theta|/alpha on springs; none if it overturns or stays down.
     pub share_of_overturning: Option<f64>,
+    /// Whether small changes decide on that, see [`Run::by_chance`].
+    pub by_chance: bool,
     /// By weight, the answer first.
     pub findings: Vec<FiledFinding>,
     pub taken: Taken,
@@ -115,6 +117,7 @@ impl Said {
             verdict: run.verdict(),
             does,
             share_of_overturning,
+            by_chance: run.by_chance(),
             findings: run.findings.clone(),
             taken: run.taken.clone(),
             peaks,

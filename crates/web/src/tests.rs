@@ -105,6 +105,46 @@ fn what_a_page_cannot_do_is_refused_in_one_line() {
     }
 }
 
+/// Steady ground of g b/h pushes a body over as soon as it lifts it: within 1 % of that a change of
+/// 1 % decides, further away none does. That a history is sensitive is no chance of falling.
+#[test]
+fn by_chance_is_where_small_changes_decide_on_overturning() {
+    give_file("push.txt", "0.25\n".repeat(3000).as_bytes());
+    let chance = |scale: f64| {
+        let case = format!(
+            "[structure]\nkind = \"block\"\ntotal_height_m = 2.0\nwidth_m = 0.5\n\
+                mass_kg = 100.0\n\
+                [record]\nfile = \"push.txt\"\ndt_s = 0.01\nunits = \"g\"\nscale = {scale}\n"
+        );
+        let answer = parsed(at_once(&case, 0.5));
+        (answer["does"].as_str().unwrap().to_string(), answer["by_chance"].as_bool().unwrap())
+    };
+    assert_eq!(chance(1.004), ("overturns".into(), true));
+    assert_eq!(chance(1.1), ("overturns".into(), false));
+    assert_eq!(chance(0.9), ("stays_down".into(), false));
+    forget_file("push.txt");
+    // the page's first block: 4 % of overturning, and a history that nothing foretells
+    let block = "[structure]\nkind = \"block\"\ntotal_height_m = 1.9\nwidth_m = 0.5\n\
+        mass_kg = 250.0\n[record]\nscale = 1.0\n";
+    let answer = parsed(at_once(block, 0.5));
+    let sensitive = |f: &Value| f["finding"] == "ill_conditioned";
+    assert!(answer["findings"].as_array().unwrap().iter().any(sensitive), "{answer}");
+    assert_eq!(answer["by_chance"], false);
+}
+
+/// What is there at once and what the run says later are the same quantities, on other springs.
+#[test]
+fn peaks_of_a_pier_do_not_jump_when_its_run_ends() {
+    let [at_once, run] = [parsed(at_once(PIER, 0.5)), parsed(tune(PIER, 0.5))["said"].take()];
+    let of = |from: &Value, key: &str| from["peaks"]["springs"][key].as_f64().unwrap();
+    for key in ["top_displacement_m", "rocking_m", "bending_m", "uplift_m", "drift_ratio"] {
+        let (first, last) = (of(&at_once, key), of(&run, key));
+        assert!((first / last - 1.0).abs() < 0.05, "{key}: {first} {last}");
+    }
+    let moved = of(&at_once, "feet_moved_m") - of(&run, "feet_moved_m");
+    assert!(moved.abs() < 0.01 * of(&run, "top_displacement_m"), "{moved}");
+}
+
 #[test]
 fn a_pulse_is_a_record_with_its_amplitude() {
     let text = pulse(0.7, 1.2).unwrap();

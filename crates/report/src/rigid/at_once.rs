@@ -46,6 +46,7 @@ impl RunAtOnce {
         findings.extend(doubts(case.doubts()));
         let parameters = Parameters {
             peaks: Some(peaks(structure.kind, &body, record.dt, &both)),
+            conditioning: Some(report.conditioning.into()),
             verdict: Some(verdict),
             findings: filed(findings),
             ..parameters
