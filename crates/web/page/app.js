@@ -2,9 +2,18 @@
 let module, quick, whole, last, run, spectrum, playing = 0, at = 0;
 let atRest = 0, wanted = false, asking = false, version = 0, lastRecord = null;
 const REST_MS = 300, WAIT_MS = 400;
-let answered = 0;
+let answered = 0, since = 0;
 window.measures = { moves: [], tune: 0, memory: () => [quick?.memory ?? 0, whole?.memory ?? 0] };
 
+// another record or structure: what was asked before it is not shown any more
+function changedAll() { since = version + 1; changed(); clearAnswer(); }
+function clearAnswer() {
+  $("verdict").className = "verdict";
+  $("word").textContent = "Computing ...";
+  for (const id of ["sentence", "stage", "tiles", "remarks"]) $(id).replaceChildren();
+  $("asked").textContent = askedLine();
+  $("gauge-fill").style.width = "0";
+}
 function changed() {
   version++;
   window.measures.from = performance.now();
@@ -16,7 +25,7 @@ function changed() {
   atRest = setTimeout(rest, REST_MS);
   const of = version;
   // an answer to what was asked before does not stay
-  setTimeout(() => { if (of === version && answered !== of) { $("verdict").className = "verdict"; $("word").textContent = "Computing ..."; for (const id of ["asked", "sentence", "stage", "tiles", "remarks"]) $(id).replaceChildren(); $("gauge-fill").style.width = "0"; } }, WAIT_MS);
+  setTimeout(() => { if (of === version && answered !== of) clearAnswer(); }, WAIT_MS);
   askAtOnce();
 }
 // a pulse is a file like any other
@@ -40,22 +49,26 @@ async function askAtOnce() {
       if (missing()) throw new Error(state.file ? `This case is of the record ${state.file}: drop that file here.` : "Drop a record, or choose a file.");
       await givePulse(quick);
       const { answer, took } = await quick.call("at_once", caseText(), 0.5);
-      last = JSON.parse(answer);
-      if (!run || of === version) { showSaid(last); window.measures.moves.push([performance.now() - began, took]); requestAnimationFrame(() => setTimeout(() => window.measures.moves.at(-1).push(performance.now() - began))); }
-    } catch (error) { if (error.message !== "stopped") showError(error.message); }
+      if (of >= since) last = JSON.parse(answer);
+      if (of >= since && (!run || of === version)) { showSaid(last); window.measures.moves.push([performance.now() - began, took]); requestAnimationFrame(() => setTimeout(() => window.measures.moves.at(-1).push(performance.now() - began))); }
+    } catch (error) { if (error.message !== "stopped" && of >= since) showError(error.message); }
     answered = of;
   }
   asking = false;
 }
 async function askRecord() {
+  const of = version;
   lastRecord = null;
   if (missing()) { $("record-line").textContent = ""; fileOptions(null); return; }
   try {
     await givePulse(quick);
-    lastRecord = JSON.parse((await quick.call("read_record", caseText())).answer);
+    const { answer } = await quick.call("read_record", caseText());
+    if (of < since) return;
+    lastRecord = JSON.parse(answer);
     $("record-line").textContent = [lastRecord.line, ...lastRecord.notices.map(onPage)].join(". ");
     $("file-error").hidden = true;
   } catch (error) {
+    if (of < since) return;
     $("record-line").textContent = "";
     if (state.rec === "file") tableOf(state.file, error.message);
     if (state.rec === "file") { $("file-error").textContent = onPage(error.message); $("file-error").hidden = false; }
@@ -83,6 +96,7 @@ async function tune(of) {
     whole ??= new Computer(module);
     if (files.has(state.file)) await whole.call("give_file", state.file, files.get(state.file));
     await givePulse(whole);
+    if (of !== version) return;
     const text = caseText(), began = performance.now();
     const { answer } = await whole.call("tune", text, 0.5);
     if (of !== version) return;
@@ -101,6 +115,10 @@ async function tune(of) {
 
 // ---- what is shown
 const WORDS = { overturns: "It falls over", rocks: "It rocks and stands", stays_down: "It does not lift", unknown: "No answer" };
+function askedLine() {
+  const named = state.rec === "elcentro" ? "El Centro 1940" : state.rec === "pulse" ? `a pulse of ${digits(state.amp)} g and ${digits(state.per)} s` : state.file;
+  return `${state.kind === "aframe" ? "An" : "A"} ${KINDS[state.kind].title} ${withUnit(value("h"), LENGTH)} high, ${state.kind === "frame" ? "on footings " : state.kind === "pier" ? "on a footing " : ""}${withUnit(value("w"), LENGTH)} wide, in ${named}${state.scale === 1 ? "" : ` times ${digits(state.scale)}`}:`;
+}
 function showSaid(said, ofRun = false) {
   const h = said.history, w = said.working;
   h.rigid = w.frequency_hz === undefined;
@@ -112,8 +130,7 @@ function showSaid(said, ofRun = false) {
   const share = said.does === "overturns" ? 1 : (said.share_of_overturning ?? 0), back = said.does === "rocks" && share > 1;
   const box = $("verdict"), doubt = said.by_chance;
   box.className = `verdict ${said.does}${doubt || back ? " doubt" : ""}`;
-  const named = state.rec === "elcentro" ? "El Centro 1940" : state.rec === "pulse" ? `a pulse of ${digits(state.amp)} g and ${digits(state.per)} s` : state.file;
-  $("asked").textContent = `${state.kind === "aframe" ? "An" : "A"} ${KINDS[state.kind].title} ${withUnit(value("h"), LENGTH)} high, ${state.kind === "frame" ? "on footings " : state.kind === "pier" ? "on a footing " : ""}${withUnit(value("w"), LENGTH)} wide, in ${named}${state.scale === 1 ? "" : ` times ${digits(state.scale)}`}:`;
+  $("asked").textContent = askedLine();
   const word = back ? "It passes its balance and comes back" : WORDS[said.does];
   $("word").textContent = doubt ? `${word} here, by chance` : word;
   $("sentence").textContent = said.verdict;

@@ -1,6 +1,6 @@
 // Events, and the beginning.
-for (const radio of document.querySelectorAll("[name=kind]")) radio.addEventListener("change", () => { state.kind = radio.value; state.values = {}; movedTime = false; buildForm(); changed(); });
-for (const radio of document.querySelectorAll("[name=rec]")) radio.addEventListener("change", () => { state.rec = radio.value; movedTime = false; buildForm(); changed(); askRecord(); });
+for (const radio of document.querySelectorAll("[name=kind]")) radio.addEventListener("change", () => { state.kind = radio.value; state.values = {}; movedTime = false; buildForm(); changedAll(); });
+for (const radio of document.querySelectorAll("[name=rec]")) radio.addEventListener("change", () => { state.rec = radio.value; movedTime = false; buildForm(); changedAll(); askRecord(); });
 for (const radio of document.querySelectorAll("[name=units]")) radio.addEventListener("change", () => { state.u = radio.value; buildForm(); changed(); });
 $("form").addEventListener("submit", (e) => e.preventDefault());
 $("program-name").addEventListener("change", () => { state.prog = $("program-name").value; state.integ = ""; programForm(); changed(); });
@@ -38,16 +38,22 @@ $("play").addEventListener("click", () => {
 });
 
 // ---- files, chosen or dropped anywhere
+let taken;
 async function take(file) {
-  const bytes = new Uint8Array(await file.arrayBuffer());
   const name = file.name.replace(/[\u0000-\u001f\u007f]/g, "_");
+  taken = file;
+  $("drop").firstElementChild.textContent = name;
+  const bytes = new Uint8Array(await file.arrayBuffer());
+  if (taken !== file) return;
   files.set(name, bytes);
-  for (const computer of [quick, whole]) await computer?.call("give_file", name, bytes).catch(() => {});
+  // not awaited: workers take calls in order, and a run that is on ends with what has changed
+  quick?.call("give_file", name, bytes).catch(() => {});
   Object.assign(state, { rec: "file", file: name, comp: "", vert: false, dt: "", units: "" });
   movedTime = false;
+  $("record-line").textContent = "";
+  $("file-error").hidden = true;
   buildForm();
-  $("drop").firstElementChild.textContent = name;
-  changed();
+  changedAll();
   askRecord();
 }
 $("file").addEventListener("change", () => { const [file] = $("file").files; if (file) take(file); $("file").value = ""; });
@@ -62,7 +68,7 @@ function takeLink() {
   $("link-note").hidden = told === "";
 }
 for (const happens of ["input", "change"]) $("form").addEventListener(happens, () => ($("link-note").hidden = true));
-addEventListener("popstate", () => { takeLink(); restHash = toHash(); movedTime = false; buildForm(); changed(); askRecord(); });
+addEventListener("popstate", () => { takeLink(); restHash = toHash(); movedTime = false; buildForm(); changedAll(); askRecord(); });
 const again = () => { if (last) showTime(); for (const plot of Object.values(replot)) plot(); };
 addEventListener("resize", again);
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", again);
