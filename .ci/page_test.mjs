@@ -170,6 +170,27 @@ for (const width of [1440, 1024, 390]) {
     await page.context().close();
   }
 }
+// ---- numbers: a decimal comma is a point, groups of thousands are refused, what is refused is said for a while
+{
+  const page = await open();
+  await drawn(page);
+  const type = async (text) => { await page.fill("#n-h", ""); await page.locator("#n-h").pressSequentially(text); };
+  const height = () => page.evaluate(() => value("h"));
+  await type("1,7");
+  check((await height()) === 1.7, `1,7 is ${await height()}`);
+  for (const text of ["1,234.5", "1.234,5", "1,234", "1 234", "1..7", "99", ""]) {
+    await page.fill("#n-h", "1.5");
+    await page.fill("#n-h", text);
+    const shown = await page.inputValue("#n-h"), note = page.locator("#structure .error").first();
+    const [says, held] = [await note.textContent(), await height()];
+    await page.locator("#n-w").focus();
+    check(shown === text && held === 1.5 && (await note.isVisible()) && says.includes("the answer is for 1.5 m"), `"${text}" is refused: ${says}`);
+    check((await page.inputValue("#n-h")) === "1.5", "the field shows what is computed, once it is left");
+  }
+  await page.fill("#step", "0,002");
+  check((await page.evaluate(() => state.step)) === 0.002, "a step of 0,002 s is one of 0.002 s");
+  await page.context().close();
+}
 // ---- what the page says is of one and the same history
 {
   const page = await open();

@@ -6,7 +6,7 @@ $("form").addEventListener("submit", (e) => e.preventDefault());
 $("program-name").addEventListener("change", () => { state.prog = $("program-name").value; state.integ = ""; programForm(); changed(); });
 $("integrator").addEventListener("change", () => { state.integ = $("integrator").value; changed(); });
 $("step").addEventListener("input", stepTyped);
-$("step").addEventListener("blur", showStep);
+$("step").addEventListener("blur", () => showStep(true));
 $("magnify").addEventListener("change", showTime);
 $("time").addEventListener("input", () => { movedTime = true; at = Number($("time").value); showTime(); });
 for (const id of ["plot-top", "plot-ground"]) {

@@ -1,5 +1,16 @@
 // Sliders and numbers, the record's part of the form.
 const places = {};
+// A decimal comma is a point. What may group thousands is no number here: "1,234" and "1,234.5" are read in two ways.
+function numberIn(text) {
+  const t = text.trim();
+  return /^[-+]?(\d+[.,]?\d*|[.,]\d+)(e[-+]?\d+)?$/i.test(t) && !/^[-+]?[1-9]\d{0,2},\d{3}$/.test(t) ? Number(t.replace(",", ".")) : NaN;
+}
+const notRead = (text) => (text.trim() === "" || Number.isFinite(numberIn(text)) ? "" : `"${text}" is not clear: write 1.5 or 1,5, nothing between thousands; `);
+// what is said of a number that is not taken stands a while after the field shows again what is
+const STAYS_MS = 8000;
+const fades = new WeakMap();
+const fade = (note) => { clearTimeout(fades.get(note)); if (!note.hidden) fades.set(note, setTimeout(() => (note.hidden = true), STAYS_MS)); };
+const tell = (note, text) => { clearTimeout(fades.get(note)); note.hidden = text === ""; note.textContent = text; };
 // a slider is even in the logarithm
 const toSlide = (x, { least, most }) => Math.log(x / least) / Math.log(most / least);
 const fromSlide = (s, { least, most }) => Number((least * (most / least) ** s).toPrecision(3));
@@ -7,8 +18,8 @@ function field(name, of, get, set) {
   const unit = unitOf(of.unit), box = document.createElement("div");
   box.className = "field";
   const inUnit = (x) => Number((x * unit.by).toPrecision(unit.by === 1 ? 9 : 5));
-  box.innerHTML = `<div class="top"><label for="n-${name}">${of.name}</label><span class="number"><input type="number" id="n-${name}" step="any" min="${digits(of.least * unit.by, 6).replace(/ /g, "")}" max="${digits(of.most * unit.by, 6).replace(/ /g, "")}"><b>${unit.unit}</b></span></div><small class="error" role="alert" hidden></small><input type="range" id="s-${name}" min="0" max="1" step="0.002" aria-label="${of.name}, slider">`;
-  const number = box.querySelector("[type=number]"), slider = box.querySelector("[type=range]"), limits = box.querySelector("small");
+  box.innerHTML = `<div class="top"><label for="n-${name}">${of.name}</label><span class="number"><input inputmode="decimal" id="n-${name}"><b>${unit.unit}</b></span></div><small class="error" role="alert" hidden></small><input type="range" id="s-${name}" min="0" max="1" step="0.002" aria-label="${of.name}, slider">`;
+  const number = box.querySelector("[inputmode]"), slider = box.querySelector("[type=range]"), limits = box.querySelector("small");
   const show = (skip) => {
     if (skip !== number) number.value = String(inUnit(get()));
     slider.value = String(toSlide(get(), of));
@@ -16,20 +27,19 @@ function field(name, of, get, set) {
   };
   slider.addEventListener("input", () => { set(fromSlide(Number(slider.value), { least: of.least, most: of.most })); show(slider); changed(); });
   number.addEventListener("input", () => {
-    const x = Number(number.value) / unit.by;
-    const good = number.value !== "" && x >= of.least * 0.999999 && x <= of.most * 1.000001;
+    const x = numberIn(number.value) / unit.by;
+    const good = x >= of.least * 0.999999 && x <= of.most * 1.000001;
     number.setAttribute("aria-invalid", String(!good));
-    limits.hidden = good;
-    limits.textContent = good ? "" : `${of.name}: from ${digits(of.least * unit.by, 3)} to ${digits(of.most * unit.by, 3)} ${unit.unit}; the answer is for ${inUnit(get())} ${unit.unit}`;
+    tell(limits, good ? "" : `${of.name}: ${notRead(number.value)}from ${digits(of.least * unit.by, 3)} to ${digits(of.most * unit.by, 3)} ${unit.unit}; the answer is for ${inUnit(get())} ${unit.unit}`);
     if (good) { set(Number(x.toPrecision(9))); show(number); changed(); }
   });
-  number.addEventListener("blur", () => { number.removeAttribute("aria-invalid"); limits.hidden = true; show(); });
+  number.addEventListener("blur", () => { number.removeAttribute("aria-invalid"); fade(limits); show(); });
   // arrows change the second digit
   number.addEventListener("keydown", (event) => {
     const way = { ArrowUp: 1, ArrowDown: -1 }[event.key];
     if (!way) return;
     event.preventDefault();
-    const x = Number(number.value), by = 10 ** (Math.floor(Math.log10(Math.abs(x) || 1)) - 1);
+    const x = numberIn(number.value) || get() * unit.by, by = 10 ** (Math.floor(Math.log10(Math.abs(x) || 1)) - 1);
     number.value = String(Number((x + way * by).toPrecision(6)));
     number.dispatchEvent(new Event("input"));
   });
@@ -68,21 +78,20 @@ function programForm() {
   options("integrator", PROGRAMS[state.prog].integrators.map((key) => [key, INTEGRATORS[key]]), integrator());
   showStep();
 }
-function showStep() {
+function showStep(left) {
   $("step").value = String(stepGiven());
   $("step").placeholder = isRigid() ? "" : "as it needs";
-  stepError("");
+  $("step").removeAttribute("aria-invalid");
+  if (left) fade($("step-error")); else tell($("step-error"), "");
 }
 function stepError(text) {
   $("step").setAttribute("aria-invalid", String(text !== ""));
-  $("step-error").hidden = text === "";
-  $("step-error").textContent = text;
+  tell($("step-error"), text);
 }
 function stepTyped() {
-  const text = $("step").value, x = Number(text);
-  // a field with letters in it is empty, too
-  const none = text === "" && !$("step").validity.badInput && !isRigid();
-  if (!none && !goodStep(x)) return stepError(`step: from ${STEP.least} to ${STEP.most} s; the answer is for ${stepGiven() ? `${stepGiven()} s` : "the step that the run finds"}`);
+  const text = $("step").value, x = numberIn(text);
+  const none = text.trim() === "" && !isRigid();
+  if (!none && !goodStep(x)) return stepError(`step: ${notRead(text)}from ${STEP.least} to ${STEP.most} s; the answer is for ${stepGiven() ? `${stepGiven()} s` : "the step that the run finds"}`);
   stepError("");
   state.step = none ? "" : x;
   changed();
@@ -129,9 +138,15 @@ function fileOptions(record) {
     const l = document.createElement("label");
     l.className = "field"; l.style.display = "block";
     const n = document.createElement("input");
-    n.type = "number"; n.step = "any"; n.min = "0.000001"; n.max = "1"; n.value = state.dt;
-    n.addEventListener("change", () => { state.dt = Number(n.value) > 0 ? n.value : ""; changed(); askRecord(); });
-    l.append("time step ", n, " s (empty: as the file says)");
+    const note = document.createElement("small");
+    note.className = "error"; note.setAttribute("role", "alert"); note.hidden = true;
+    n.inputMode = "decimal"; n.value = state.dt;
+    n.addEventListener("change", () => {
+      const x = numberIn(n.value), none = n.value.trim() === "";
+      if (!none && !(x >= 1e-6 && x <= 1)) return tell(note, `time step: ${notRead(n.value)}from 0.000001 to 1 s`);
+      state.dt = none ? "" : String(x); changed(); askRecord();
+    });
+    l.append("time step ", n, " s (empty: as the file says)", note);
     box.append(l);
   }
 }
