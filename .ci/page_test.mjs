@@ -199,6 +199,15 @@ for (const width of [1440, 1024, 390]) {
   check(share < 0.1 && !word.includes("by chance"), `at ${(100 * share).toFixed(1)} % of overturning: ${word}`);
   await page.context().close();
 }
+{
+  const page = await open("#kind=block&h=2.286&w=0.6096&m=952.5");
+  await tuned(page);
+  const [eq, tile] = await page.evaluate(() => [document.getElementById("working").textContent, last.peaks.springs.uplift_m]);
+  const [, angle, lifted] = eq.match(/on springs, as above:2 b sin \u03b8 = 0\.6096 · sin ([\d.]+) = ([\d.]+) m/) ?? [];
+  const [, largest] = eq.match(/largest found on springs: .*? = ([\d.]+) rad/) ?? [];
+  check(Math.abs(lifted / tile - 1) < 1e-3 && Math.abs(angle / largest - 1) < 1e-3, `the working: ${largest} rad, ${angle} rad, ${lifted} m; the tile ${tile} m`);
+  await page.context().close();
+}
 // ---- the browser's own back undoes; a link is a case
 {
   const page = await open("#kind=block&h=1.9&w=0.5");

@@ -12,9 +12,12 @@ function working(said) {
   add("It lifts when the ground's acceleration passes", w.frequency_hz === undefined ? `a = g b/h${w.uplift_g > (b / h) * (1 + 1e-9) ? " (1 + T/W), T a tendon's tension and W the weight," : ""} = ${E(w.uplift_g)} g = ${E(w.uplift_g * G)} m/s²` : `a = ${E(w.uplift_g)} g for the elastic structure; the rigid body g b/h = ${E(b / h)} g`);
   add("Restitution, velocity after an impact over that before (equation 2):", `e = 1 − (m R²/I<sub>0</sub>)(1 − cos 2α) = 1 − ${E(share)} · (1 − cos ${E(2 * alpha)}) = ${E(e)}`);
   add("Rocking between impacts (equations 1 and 3), s = sign of θ, u<sub>g</sub> the ground's acceleration:", `θ″ = −${E(p * p)} · [sin(${E(alpha)} s − θ) + (u<sub>g</sub>/9.81) cos(${E(alpha)} s − θ)]; at θ = 0: θ′ → ${E(e)} θ′`);
-  add("It falls when |θ| passes α and does not come back:", `α = ${E(alpha)} rad; largest found: ${said.share_of_overturning === null ? "see the verdict" : `${E(100 * said.share_of_overturning, 3)} % of α = ${E(said.share_of_overturning * alpha)} rad`}`);
-  const peaks = said.peaks?.reference ?? said.peaks?.springs;
-  if (peaks && said.working.frequency_hz === undefined && said.does === "rocks") add("Uplift of the foot that is in the air:", `2 b sin θ = ${E(2 * b)} · sin ${E(peaks.uplift_m / (2 * b))} = ${E(peaks.uplift_m)} m`);
+  add("It falls when |θ| passes α and does not come back:", `α = ${E(alpha)} rad; largest found on springs: ${said.share_of_overturning === null ? "see the verdict" : `${E(100 * said.share_of_overturning, 3)} % of α = ${E(said.share_of_overturning * alpha)} rad`}`);
+  const peaks = said.peaks?.with_members ?? said.peaks?.springs, reference = said.peaks?.reference;
+  if (peaks && w.frequency_hz === undefined && said.does === "rocks") {
+    const lifted = ({ uplift_m }) => `2 b sin θ = ${E(2 * b)} · sin ${E(Math.asin(uplift_m / (2 * b)))} = ${E(uplift_m)} m`;
+    add("Uplift of the foot that is in the air, on springs, as above:", `${lifted(peaks)}${reference ? `; by Housner's equation ${lifted(reference)}` : ""}`);
+  }
   for (const s of said.springs) {
     const on = Math.sqrt(s.k1_n_per_m / m);
     add(`The ${escape(s.name)} unit at ${escape(said.springs_at)}: gap spring k<sub>1</sub>, absorber m<sub>2</sub>, spring k<sub>2</sub> and dashpot c in parallel below it.`,
