@@ -170,6 +170,33 @@ for (const width of [1440, 1024, 390]) {
     await page.context().close();
   }
 }
+// ---- a record chosen while a run is on: its name at once, the run ends; messages in the page's own fields
+{
+  const page = await open("#kind=frame&rec=file");
+  const choose = (name, text) => page.setInputFiles("#file", { name, mimeType: "text/plain", buffer: Buffer.from(text) });
+  const wave = (step, most = 0.3) => `time (s),a (g)\n${Array.from({ length: 1500 }, (_, i) => `${(step * i).toFixed(4)},${(most * Math.sin(0.05 * i)).toFixed(5)}`).join("\n")}\n`;
+  await page.waitForFunction(() => window.measures.ready);
+  await choose("first.csv", wave(0.02));
+  await page.waitForFunction(() => document.getElementById("tune-state").textContent.startsWith("searching"), null, { timeout: 60000 });
+  await page.waitForTimeout(1500);
+  await choose("second.csv", wave(0.02, 0.2));
+  const at = Date.now();
+  await page.waitForFunction(() => ["drop", "asked", "record-line"].every((id) => document.getElementById(id).textContent.includes("second")), null, { timeout: 20000 }).catch(() => {});
+  check(Date.now() - at < 5000, `a record chosen while a run is on is named after ${Date.now() - at} ms (5000)`);
+  const told = async (name, text, wanted) => {
+    await choose(name, text);
+    await page.waitForFunction((name) => document.getElementById("file-error").textContent.startsWith(name), name, { timeout: 20000 }).catch(() => {});
+    const said = await page.textContent("#file-error");
+    check(said.includes(wanted) && !said.includes("--") && !said.includes("not on this page"), `${name}: ${said}`);
+  };
+  await told("uneven.csv", "t,a (g)\n0,0.1\n0.01,0.2\n0.025,-0.1\n", 'give it under "time step"');
+  await told("huge.csv", wave(0.01, 900), 'under "unit of the numbers"');
+  await page.selectOption("#file-options select", "mm/s2");
+  await page.waitForFunction(() => document.getElementById("file-error").textContent.includes("its unit is"), null, { timeout: 20000 }).catch(() => {});
+  const unit = await page.textContent("#file-error");
+  check(unit.includes('choose "as the file says"') && !unit.includes("--"), `another unit than the file's: ${unit}`);
+  await page.context().close();
+}
 // ---- numbers: a decimal comma is a point, groups of thousands are refused, what is refused is said for a while
 {
   const page = await open();

@@ -70,7 +70,13 @@ const CONTROLS = [
   [/give --for opensees-even/, "choose OpenSees with even steps"],
   [/ \(leave --integrator out\)/, ", the first of the list"],
   [/or --integrator backward-euler/, "or backward Euler as integrator"],
-  [/pass --dt SECONDS/, 'give it under "time step"'],
+  [/; bare values are read row by row.*$/, ""],
+  [/numbers in cm\/s2 need --units .*$/, 'choose the unit under "unit of the numbers"; one that the file itself names is to be corrected in the file'],
+  [/but --units is (\S+); drop --units or correct one of them/, 'but $1 is chosen; choose "as the file says" under "unit of the numbers", or correct the file'],
+  [/but --dt is (\S+ s); drop --dt or correct one of them/, 'but $1 is given; empty the field "time step", or correct the file'],
+  [/: --dt (\S+) does not/, ': the time step of $1 s does not'],
+  [/pass another --component.*$/, "choose the file again to see what it has"],
+  [/pass --dt(?: SECONDS)?/, 'give it under "time step"'],
   [/pass --units .*$/, 'choose it under "unit of the numbers"'],
 ];
 function onPage(text) {
