@@ -235,6 +235,15 @@ for (const width of [1440, 1024, 390]) {
   check(Math.abs(lifted / tile - 1) < 1e-3 && Math.abs(angle / largest - 1) < 1e-3, `the working: ${largest} rad, ${angle} rad, ${lifted} m; the tile ${tile} m`);
   await page.context().close();
 }
+// ---- on a telephone tables fit
+for (const hash of ["#kind=aframe", "#kind=pier"]) {
+  const page = await open(hash, { width: 390 });
+  await tuned(page);
+  const wide = await page.$$eval(".scroll", (all) => all.filter((box) => box.scrollWidth > box.clientWidth + 1).map((box) => `${box.ariaLabel} ${box.scrollWidth} of ${box.clientWidth}`));
+  check(wide.length === 0, `${hash}: tables fit 390 px${wide.length ? `: ${wide.join(", ")}` : ""}`);
+  if (process.env.SHOTS) await page.screenshot({ path: path.join(process.env.SHOTS, `page-390-${hash.slice(6)}.png`), fullPage: true });
+  await page.context().close();
+}
 // ---- the browser's own back undoes; a link is a case
 {
   const page = await open("#kind=block&h=1.9&w=0.5");

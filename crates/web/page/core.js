@@ -68,7 +68,7 @@ function digits(x, n = 4) {
   const a = Math.abs(x);
   if (a >= 1e7 || a < 1e-4) return x.toExponential(n - 1).replace("e+", "e");
   const rounded = Number(x.toPrecision(n));
-  return a >= 10000 ? Math.round(rounded).toLocaleString("en-US").replace(/,/g, " ") : String(rounded);
+  return a >= 10000 ? Math.round(rounded).toLocaleString("en-US").replace(/,/g, "\u00a0") : String(rounded);
 }
 // three digits, never above x or never below it: an edge is told on its safe side
 const digitsDown = (x, way = Math.floor) => { const by = 10 ** (2 - Math.floor(Math.log10(x))); return digits(way(x * by * (1 + (way === Math.floor ? 1e-12 : -1e-12))) / by, 3); };
