@@ -235,6 +235,13 @@ for (const width of [1440, 1024, 390]) {
   check(Math.abs(lifted / tile - 1) < 1e-3 && Math.abs(angle / largest - 1) < 1e-3, `the working: ${largest} rad, ${angle} rad, ${lifted} m; the tile ${tile} m`);
   await page.context().close();
 }
+{
+  const page = await open("#kind=aframe&u=ft");
+  await tuned(page);
+  const springs = await page.textContent("#springs"), forces = await page.textContent("#tuned");
+  check(springs.includes("In SI units") && forces.includes("In SI units"), "feet: springs and forces say that they are in SI units");
+  await page.context().close();
+}
 // ---- on a telephone tables fit
 for (const hash of ["#kind=aframe", "#kind=pier"]) {
   const page = await open(hash, { width: 390 });

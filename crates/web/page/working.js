@@ -23,11 +23,13 @@ function working(said) {
     add(`The ${escape(s.name)} unit at ${escape(said.springs_at)}: gap spring k<sub>1</sub>, absorber m<sub>2</sub>, spring k<sub>2</sub> and dashpot c in parallel below it.`,
       `Ω<sub>n</sub> = √(k<sub>1</sub>/m) = √(${E(s.k1_n_per_m)}/${E(m)}) = ${E(on)} rad/s = ${E(on / (2 * Math.PI))} Hz; K = k<sub>2</sub>/k<sub>1</sub> = ${E(s.k2_n_per_m / s.k1_n_per_m)}; μ = m<sub>2</sub>/m = ${E(s.m2_kg / m)}; C = c/(m Ω<sub>n</sub>) = ${E(s.c_ns_per_m / (m * on))}`);
   }
-  return `<ol class="work">${rows.join("")}</ol>`;
+  return `${inSi()}<ol class="work">${rows.join("")}</ol>`;
 }
+// of whoever has chosen feet
+const inSi = () => state.u === "ft" ? '<p class="small"><strong>In SI units, as in the files:</strong> 1 kN = 0.2248 kip, 1 kN m = 0.7376 kip ft, 1 kN/m = 0.06852 kip/ft, 1 kg = 2.205 lb.</p>' : "";
 function springsTable(springs, at, which = "Springs") {
   const row = (s) => `<tr><th scope="row">${escape(s.name)}</th><td>${E(s.k1_n_per_m)}</td><td>${E(s.k2_n_per_m)}</td><td>${E(s.m2_kg)}</td><td>${E(s.c_ns_per_m)}</td></tr>`;
-  return `<div class="scroll" tabindex="0" role="region" aria-label="${which} at ${escape(at)}"><table><caption class="hidden">${which} at ${escape(at)}</caption><thead><tr><th scope="col">at ${escape(at)}</th><th scope="col">k1, N/m</th><th scope="col">k2, N/m</th><th scope="col">m2, kg</th><th scope="col">c, N s/m</th></tr></thead><tbody>${springs.map(row).join("")}</tbody></table></div>`;
+  return `${inSi()}<div class="scroll" tabindex="0" role="region" aria-label="${which} at ${escape(at)}"><table><caption class="hidden">${which} at ${escape(at)}</caption><thead><tr><th scope="col">at ${escape(at)}</th><th scope="col">k1, N/m</th><th scope="col">k2, N/m</th><th scope="col">m2, kg</th><th scope="col">c, N s/m</th></tr></thead><tbody>${springs.map(row).join("")}</tbody></table></div>`;
 }
 // a table of the report
 function reportTable({ head, rows }, name) {
@@ -40,7 +42,7 @@ const small = (texts) => texts.map((text) => `<p class="small">${escape(onPage(t
 function forcesOf(section, many) {
   if (!section) return "";
   const mark = many ? ' <small class="mark">not predictable: design by many motions</small>' : "";
-  return `<h3>${escape(section.title)}${mark}</h3>${reportTable(section.table, section.title)}${small([...section.text, ...section.notes])}`;
+  return `<h3>${escape(section.title)}${mark}</h3>${inSi()}${reportTable(section.table, section.title)}${small([...section.text, ...section.notes])}`;
 }
 // springs for a program before the run has measured them
 function preliminaryProgram(f) {
