@@ -75,7 +75,7 @@ impl Standing {
             g.set_row(2 * i, &corner.jacobian[0].transpose());
             g.set_row(2 * i + 1, &corner.jacobian[1].transpose());
         }
-        let w = &g * mass.solve(&g.transpose());
+        let w = product(&g, &mass.solve(&g.transpose()));
         let footings = footings(structure.footings(), &w, |corners| width(&g, corners));
 
         let [stiffness, _] = structure.tangent(q, &rest, [0.0; 2]);
@@ -137,6 +137,24 @@ fn width(g: &DMatrix<f64>, corners: &[usize]) -> f64 {
     difference.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
 }
 
+/// a b, each entry summed in order. The operator's product of matrices above 5 x 5 takes the
+/// processor's widest instructions, fused ones too, and its last digits follow the machine: a page
+/// in a browser would find other ones than the program.
+fn product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
+    let entry = |i: usize, j: usize| (0..a.ncols()).map(|k| a[(i, k)] * b[(k, j)]).sum();
+    DMatrix::from_fn(a.nrows(), b.ncols(), entry)
+}
+
+/// a^+, singular values up to `least` taken for zero.
+fn pseudo_inverse(a: DMatrix<f64>, least: f64) -> Option<DMatrix<f64>> {
+    let svd = SVD::new_unordered(a, true, true);
+    let (mut u, v_t) = (svd.u?, svd.v_t?);
+    for (mut column, &value) in u.column_iter_mut().zip(svd.singular_values.iter()) {
+        column *= if value > least { 1.0 / value } else { 0.0 };
+    }
+    Some(product(&v_t.transpose(), &u.transpose()))
+}
+
 /// All corners held.
 struct HeldFrame {
     /// Motions that leave them where they are, in columns.
@@ -149,13 +167,13 @@ impl HeldFrame {
     fn new(g: &DMatrix<f64>) -> Option<Self> {
         let n = g.ncols();
         // of the square matrix, for all right singular vectors
-        let svd = SVD::new_unordered(g.transpose() * g, true, false);
+        let svd = SVD::new_unordered(product(&g.transpose(), g), true, false);
         let u = svd.u?;
         let most = svd.singular_values.max();
         let idle: Vec<usize> =
             (0..n).filter(|i| svd.singular_values[*i] <= REDUNDANT * most).collect();
         let free = DMatrix::from_fn(n, idle.len(), |i, j| u[(i, idle[j])]);
-        let reactions = g.transpose().pseudo_inverse(REDUNDANT.sqrt() * most.sqrt()).ok()?;
+        let reactions = pseudo_inverse(g.transpose(), REDUNDANT.sqrt() * most.sqrt())?;
         Some(Self { free, reactions })
     }
 
@@ -171,7 +189,7 @@ impl HeldFrame {
         mass: &DMatrix<f64>,
         load: &DVector<f64>,
     ) -> Option<FixedResponse> {
-        let reduced = self.free.transpose() * stiffness * &self.free;
+        let reduced = product(&product(&self.free.transpose(), stiffness), &self.free);
         let reduced = 0.5 * (&reduced + reduced.transpose());
         let u = &self.free * reduced.cholesky()?.solve(&(self.free.transpose() * load));
         let forces = stiffness * &u;

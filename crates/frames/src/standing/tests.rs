@@ -91,3 +91,27 @@ fn a_portal_lifts_where_statics_say() {
         max_relative = 2e-3
     );
 }
+
+/// (1 + e)^2 - (1 + 2 e) is 0 where each product is rounded, and e^2 where one is fused into the
+/// sum, as the operator's product of matrices of this size is on processors that can.
+#[test]
+fn products_are_the_same_on_every_machine() {
+    let e = 2.0_f64.powi(-30);
+    let n = 8;
+    let a = DMatrix::from_fn(n, n, |_, k| [-1.0, 1.0 + e].get(k).copied().unwrap_or(0.0));
+    let b = DMatrix::from_fn(n, n, |k, _| [1.0 + 2.0 * e, 1.0 + e].get(k).copied().unwrap_or(0.0));
+    assert!(product(&a, &b).iter().all(|entry| *entry == 0.0));
+    let shifted = product(&DMatrix::identity(n, n).scale(3.0), &b);
+    assert!(shifted.iter().zip(b.iter()).all(|(x, b)| *x == 3.0 * b));
+}
+
+/// Of a matrix of full rank a^+ a = 1; of columns alike each bears a half.
+#[test]
+fn a_pseudo_inverse_shares_what_is_redundant() {
+    let a = DMatrix::from_row_slice(3, 2, &[1.0, 2.0, 0.0, 1.0, -1.0, 3.0]);
+    let one = product(&pseudo_inverse(a.clone(), 1e-9).unwrap(), &a);
+    assert_relative_eq!(one, DMatrix::identity(2, 2), epsilon = 1e-14);
+    let alike = DMatrix::from_row_slice(2, 2, &[1.0, 1.0, 2.0, 2.0]);
+    let expected = DMatrix::from_row_slice(2, 2, &[0.1, 0.2, 0.1, 0.2]);
+    assert_relative_eq!(pseudo_inverse(alike, 1e-9).unwrap(), expected, epsilon = 1e-14);
+}
