@@ -48,12 +48,12 @@ pub fn run(o: &ExportOptions) -> Result<(), CommandError> {
     match ElasticParameters::read(&o.parameters)? {
         Some(parameters) => {
             let (stepping, out) = destination(o, parameters.program.as_ref())?;
-            elastic(o, &parameters, stepping)?.write(o, &out)
+            elastic(o, &parameters, stepping)?.write(o, (stepping, &out))
         }
         None => {
             let parameters = Parameters::read(&o.parameters)?;
             let (stepping, out) = destination(o, parameters.program.as_ref())?;
-            rigid(o, parameters, stepping)?.write(o, &out)
+            rigid(o, parameters, stepping)?.write(o, (stepping, &out))
         }
     }
 }
@@ -78,8 +78,12 @@ struct ExportedDeck {
 }
 
 impl ExportedDeck {
-    /// Write it, and beside a sheet the ground motion that it names.
-    fn write(&self, o: &ExportOptions, out: &Path) -> Result<(), CommandError> {
+    /// Write it, and beside what names it the ground motion.
+    fn write(
+        &self,
+        o: &ExportOptions,
+        (stepping, out): (Stepping, &Path),
+    ) -> Result<(), CommandError> {
         let record = match &self.record.source {
             Source::File { path, .. } => Some(path.as_path()),
             _ => None,
@@ -87,6 +91,7 @@ impl ExportedDeck {
         not_an_input(out, [Some(o.parameters.as_path()), record].into_iter().flatten())?;
         let beside = match o.format {
             DeckFormat::Sap2000Sheet => motion_files(&self.record),
+            DeckFormat::Markdown if stepping != Stepping::Events => motion_files(&self.record),
             _ => Vec::new(),
         };
         let beside: Vec<(PathBuf, String)> =

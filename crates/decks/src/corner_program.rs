@@ -101,12 +101,21 @@ impl CornerProgram {
         record: &Record,
         format: DeckFormat,
     ) -> Result<CornerHistory, ExportError> {
-        self.history_with(assembled, record, format.member_damping())
+        self.history_with(assembled, record, self.damping_in(format))
     }
 
     /// Whether a deck of this format is for the program itself.
     pub fn is_of(&self, format: DeckFormat) -> bool {
-        format.member_damping() == MemberDamping::of_program(self.row.name)
+        self.damping_in(format) == MemberDamping::of_program(self.row.name)
+    }
+
+    /// What dashpots of members resist where this format is used: tables of springs are typed into
+    /// the program itself.
+    fn damping_in(&self, format: DeckFormat) -> MemberDamping {
+        match format {
+            DeckFormat::Csv | DeckFormat::Markdown => MemberDamping::of_program(self.row.name),
+            _ => format.member_damping(),
+        }
     }
 
     fn history_with(

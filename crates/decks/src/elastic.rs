@@ -10,6 +10,7 @@ use super::{
     plain::{self, NamedSprings},
     printable_title, sap2000,
     stepping::EvenSteps,
+    typed,
 };
 use dynamics::spring::{Chain, Springs};
 use files::message::significant;
@@ -104,6 +105,13 @@ impl ElasticDeck<'_> {
                         "\nUnder this integrator OpenSees' damping objects act too strongly: in a \
                          script of your own give them {damped:.3} of the structure's damping.\n"
                     ));
+                }
+                if let Some(even) = even {
+                    let model = sap2000::SapModel::elastic(self, even);
+                    text += &typed::words(&model, &self.places());
+                }
+                if let Err(ExportError::Member { name, .. }) = self.without_members(format) {
+                    text += &format!("\nThe structure has a {name}, which is not listed here.\n");
                 }
                 text
             }

@@ -5,6 +5,8 @@
 pub struct EvenEnds {
     /// When the emulation gives up on the record, which is where the deck ends (s).
     pub gives_up_s: Option<f64>,
+    /// When the structure has fallen over in these steps, if it does (s).
+    pub falls_s: Option<f64>,
     /// Whether a comparison that ends before the history does so because of these steps on these
     /// springs, not of the structure's motion.
     pub compared_by_steps: bool,

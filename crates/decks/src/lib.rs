@@ -28,6 +28,7 @@ mod sap2000;
 mod step_count;
 mod stepped_model;
 mod stepping;
+mod typed;
 pub mod verify;
 
 pub use corner_program::{CornerHistory, CornerProgram};
@@ -88,6 +89,11 @@ impl DeckFormat {
     #[doc(hidden)]
     pub fn is_sap2000(self) -> bool {
         matches!(self, Self::Sap2000 | Self::Sap2000Sheet)
+    }
+
+    /// Whether someone types a model from it.
+    pub(crate) fn is_typed(self) -> bool {
+        matches!(self, Self::Sap2000Sheet | Self::Markdown)
     }
 
     /// What dashpots of members resist in the program that it is for.
@@ -282,7 +288,11 @@ fn export_model(model: &DeckModel, format: DeckFormat) -> Result<String, ExportE
         DeckFormat::Markdown => {
             let inertia = significant(model.inertia, 4);
             let title = format!("{}; the model's I_cg = {inertia} kg m2", model.title());
-            plain::markdown(&title, model.even.as_ref(), &model.places())
+            let text = plain::markdown(&title, model.even.as_ref(), &model.places());
+            match model.even {
+                Some(_) => text + &typed::words(&sap2000::SapModel::rigid(model)?, &model.places()),
+                None => text,
+            }
         }
     })
 }

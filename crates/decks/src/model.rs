@@ -1,10 +1,14 @@
 //! What every deck needs besides the parameters: stiff legs, steps, tolerances, each with its rule.
 
-use super::{Expected, ExportError, plain::NamedSprings, printable, stepping::EvenSteps};
+use super::{
+    Expected, ExportError, beside::HousnerBeside, plain::NamedSprings, printable,
+    stepping::EvenSteps,
+};
 use dynamics::{
     fem::MASSLESS_ROTATION,
     spring::{Chain, Springs},
 };
+use files::message::significant;
 use parameters::Parameters;
 use rocking::{
     members::Members,
@@ -80,8 +84,8 @@ pub(super) struct DeckModel<'a> {
     pub rise: f64,
     /// Settings of steps of one size, in place of those that follow touches.
     pub even: Option<EvenSteps>,
-    /// Largest and least displacement by Housner's equation, where it is compared (m).
-    pub housner: Option<(f64, f64)>,
+    /// What Housner's equation finds, of a format that tells it.
+    pub housner: Option<HousnerBeside>,
     pub record: &'a Record,
     pub expected: Expected,
     /// The record's name, harmless in comments.
@@ -197,11 +201,13 @@ impl<'a> DeckModel<'a> {
     }
 
     pub(crate) fn title(&self) -> String {
-        let Structure { kind, height_m: h, width_m: width, mass_kg: mass, .. } = self.structure;
+        let Structure { kind, height_m, width_m, mass_kg, .. } = self.structure;
+        // to read: what was typed in inches has 16 digits
+        let [h, total, width, mass] =
+            [height_m, 2.0 * height_m, width_m, mass_kg].map(|x| significant(x, 6));
         let body = match kind {
             Kind::AFrame => format!("A-frame {h} m high, feet {width} m apart"),
             Kind::Block => {
-                let total = 2.0 * h;
                 format!("Block {total} m high (centre of mass at {h} m), {width} m wide")
             }
         };

@@ -116,7 +116,7 @@ pub(super) fn markdown(title: &str, even: Option<&EvenSteps>, places: &[NamedSpr
                 \n\n{warning}",
             quantity(even.step, "s"),
             substeps(even.touches),
-            even.integrator,
+            even.integrator.words(),
             even.newton
         )
     };

@@ -31,7 +31,7 @@ pub use function::sap_function;
 use links::links;
 pub(super) use parts::SapModel;
 use parts::{Bar, FootJoints, SapSection};
-pub(super) use sheet::sheet;
+pub(super) use sheet::{ToCompare, of_any_program, sheet};
 
 /// N to KN, and kg to KN s2/m.
 const KILO: f64 = 1e-3;

@@ -23,10 +23,11 @@ use strong_motion::Record;
 
 use crate::{
     DeckFormat, Expected, ExportError,
-    beside::housner_range,
+    beside::housner_beside,
     even_ends::EvenEnds,
     export_model, member,
     model::{ACCURACY, DeckModel, with_inertia},
+    samples_to_fall,
 };
 
 /// How the program that a deck is for steps.
@@ -267,17 +268,23 @@ impl Stepped {
         FixedStepHistory { motion, outcome, .. }: &FixedStepHistory,
         until: Option<f64>,
     ) -> Result<SteppedDeck, ExportError> {
-        let gives_up_s = match outcome {
-            FixedStepOutcome::GaveUp(GaveUp { time, .. }) => Some(*time),
-            _ => None,
+        let [gives_up_s, falls_s] = match outcome {
+            FixedStepOutcome::GaveUp(GaveUp { time, .. }) => [Some(*time), None],
+            // where the deck's history ends
+            FixedStepOutcome::Fallen { time } => {
+                let fallen = samples_to_fall(&motion.theta).saturating_sub(1) as f64 * record.dt;
+                [None, Some(fallen.min(*time))]
+            }
+            FixedStepOutcome::Finished => [None; 2],
         };
         let compared = samples_to(until, record.dt, motion.len());
         let model = DeckModel::new(&self.parameters, record, &self.expected(motion, compared))?;
-        let beside = (format == DeckFormat::Sap2000Sheet)
-            .then(|| housner_range(&self.given, &self.parameters, record, compared));
-        let ends = EvenEnds { gives_up_s, compared_by_steps: false };
+        let beside = format
+            .is_typed()
+            .then(|| housner_beside(&self.given, &self.parameters, record, compared));
+        let ends = EvenEnds { gives_up_s, falls_s, compared_by_steps: false };
         let even = Some(EvenSteps { ends, ..self.steps });
-        let model = DeckModel { even, housner: beside.flatten(), ..model };
+        let model = DeckModel { even, housner: beside, ..model };
         let text = export_model(&model, format)?;
         Ok(SteppedDeck { text, gives_up_s, until })
     }

@@ -5,6 +5,7 @@ mod elastic_tables;
 mod refusal;
 mod sliding;
 mod stepping;
+mod typed;
 
 use std::{collections::HashMap, process::Command};
 

@@ -45,7 +45,7 @@ pub(crate) fn decks(
 }
 
 /// What goes with a program's steps of one size: the tables of its springs; for OpenSees its decks;
-/// for SAP2000 its tables; for it and ETABS the sheet, and the ground motion that it names.
+/// for SAP2000 its tables; for it and ETABS the sheet; the ground motion that these name.
 pub(crate) fn even_decks<U>(
     program: Option<&ProgramRow<U>>,
     record: &Record,
@@ -66,16 +66,18 @@ pub(crate) fn even_decks<U>(
     let mut texts = gathered(models, name, told)?;
     let sheet: &[_] = if program.is_csi() { &[DeckFormat::Sap2000Sheet] } else { &[] };
     let sheet = gathered(sheet, name, silent)?.files;
-    if !sheet.is_empty() {
+    let tables = gathered(&[DeckFormat::Csv, DeckFormat::Markdown], name, silent)?.files;
+    // the sheet and springs_even.md name them
+    if !sheet.is_empty() || !tables.is_empty() {
         let motions = motion_files(record).into_iter();
         texts.files.extend(motions.map(|(name, text)| (format!("decks/{name}"), text)));
     }
     texts.files.extend(sheet);
-    texts.files.extend(gathered(&[DeckFormat::Csv, DeckFormat::Markdown], name, silent)?.files);
+    texts.files.extend(tables);
     Ok(texts)
 }
 
-/// The ground motion that a sheet names: files beside it, name and text.
+/// The ground motion that a sheet and springs_even.md name: files beside it, name and text.
 pub fn motion_files(record: &Record) -> Vec<(&'static str, String)> {
     let across = ("ground_motion.txt", sap_function(record.dt, &record.accel));
     let up = || ("ground_motion_up.txt", sap_function(record.dt, record.up()));

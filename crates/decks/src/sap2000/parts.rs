@@ -3,6 +3,7 @@
 
 use crate::{
     ExportError, OutputSteps,
+    beside::{HousnerBeside, HousnerEnd},
     model::{DeckModel, digits},
     stepping::EvenSteps,
 };
@@ -16,6 +17,9 @@ pub(super) const LINK_LENGTH: f64 = 0.01;
 /// Stiffness of frames that stand for a rigid body, over the stiffest spring: nothing takes their
 /// compliance off k1 here.
 const RIGID: f64 = 1e4;
+
+/// The material of such frames.
+const RIGID_MATERIAL: &str = "RIGID";
 
 /// A joint of the structure.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,7 +56,19 @@ impl SapSection {
         };
         let stiffness = RIGID * springs.iter().map(of).fold(0.0, f64::max);
         let (axial, bending) = (stiffness * length, stiffness * length.powi(3) / 3.0);
-        Self { name, material: "RIGID".into(), axial, bending, shear: f64::INFINITY, ahead: 0.0 }
+        Self {
+            name,
+            material: RIGID_MATERIAL.into(),
+            axial,
+            bending,
+            shear: f64::INFINITY,
+            ahead: 0.0,
+        }
+    }
+
+    /// Whether it is one of these.
+    pub(crate) fn is_rigid(&self) -> bool {
+        self.material == RIGID_MATERIAL
     }
 }
 
@@ -106,8 +122,8 @@ pub(crate) struct SapModel<'a> {
     pub until: Option<f64>,
     /// Settings of the program whose steps the springs are for.
     pub even: EvenSteps,
-    /// Largest and least U1 by Housner's equation, up to then (m).
-    pub housner: Option<(f64, f64)>,
+    /// What Housner's equation finds, up to then.
+    pub housner: Option<HousnerBeside>,
     /// What damping its beams have, if they have some.
     pub damping: Option<String>,
 }
@@ -163,6 +179,34 @@ impl<'a> SapModel<'a> {
         OutputSteps::of(self.even.step, self.record.dt, self.samples)
     }
 
+    /// That the structure topples in these steps, or Housner's body does, and when.
+    pub(crate) fn topples(&self) -> Option<String> {
+        let time = |s: f64| significant(s, 4);
+        let late = |s: f64| match self.until.is_some_and(|until| until <= s) {
+            true if self.even.ends.compared_by_steps => ", after what can be compared",
+            true => ", after what can be predicted",
+            false => "",
+        };
+        let housner = self.housner.and_then(|housner| housner.end).map(|end| match end {
+            HousnerEnd::Stands => "Housner's stands".to_string(),
+            HousnerEnd::Overturns(s) => format!("Housner's overturns, at {} s{}", time(s), late(s)),
+            HousnerEnd::LeavesGround(s) => {
+                format!("Housner's leaves the ground, at {} s, where his solution ends", time(s))
+            }
+        });
+        let overturns = |of: HousnerBeside| matches!(of.end, Some(HousnerEnd::Overturns(_)));
+        let steps = match self.even.ends.falls_s {
+            Some(s) => {
+                format!("The structure topples in these steps, at {} s{}", time(s), late(s))
+            }
+            None if self.housner.is_some_and(overturns) => {
+                "The structure does not topple in these steps".into()
+            }
+            None => return None,
+        };
+        Some([Some(steps), housner].into_iter().flatten().collect::<Vec<_>>().join("; ") + ".")
+    }
+
     /// What is expected, as a comment.
     pub(crate) fn expected(&self) -> String {
         let [u, v] = self.peaks;
@@ -171,9 +215,10 @@ impl<'a> SapModel<'a> {
         });
         let errors =
             self.even.errors().map_or(String::new(), |errors| format!("$ Measured: {errors}.\n"));
+        let topples = self.topples().map_or(String::new(), |topples| format!("$ {topples}\n"));
         format!(
             "$ Expected at joint {}, m, by an emulation of these steps{until}: settled U3 {}; U1 \
-                {} to {}; U3 above settled {} to {}\n{errors}",
+                {} to {}; U3 above settled {} to {}\n{topples}{errors}",
             self.watched,
             digits(self.settled),
             digits(u.1),

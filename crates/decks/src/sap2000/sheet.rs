@@ -7,6 +7,8 @@ use std::fmt::Write;
 
 use super::super::LARGE_TOLERANCE;
 use super::{FRICTION, KILO, MODULUS, SapModel, cases::CaseSettings, parts::SpringLinks};
+use crate::{language::record_note, plain::lines};
+pub(crate) use compare::ToCompare;
 use compare::{expected, notes};
 use files::message::significant;
 use rocking::scalar::GRAVITY;
@@ -174,8 +176,9 @@ fn weight(parts: &SapModel) -> String {
             P-Delta plus\n   large displacements; all else as the program has it.\n"
 }
 
-fn history(parts: &SapModel) -> String {
-    let settings = CaseSettings::of(&parts.even);
+/// What the load case of the ground motion has in any program, one setting each: its name, its
+/// words.
+pub(crate) fn of_any_program(parts: &SapModel) -> Vec<(&'static str, String)> {
     let (output, dt) = (parts.output(), parts.record.dt);
     let (followed, whole) = (parts.samples.saturating_sub(1), parts.record.len().saturating_sub(1));
     let multiple = match output.step_s == dt {
@@ -184,22 +187,35 @@ fn history(parts: &SapModel) -> String {
     };
     let end = match followed < whole {
         true => format!(
-            ": to {} s of the record's {} s, where the emulation of these steps ends",
+            ": to {} s of the record's {} s, where {}",
             number(followed as f64 * dt),
-            number(whole as f64 * dt)
+            number(whole as f64 * dt),
+            match parts.even.ends.falls_s {
+                Some(_) => "the structure has toppled in these steps",
+                None => "the emulation of these steps ends",
+            }
         ),
         false => String::new(),
     };
+    let scale = parts.record.made_of.as_ref().map_or(1.0, |of| of.scale);
+    let scaled = format!("; scale {}, in the file already", significant(scale, 6));
+    vec![
+        ("geometry", "P-Delta plus large displacements".to_string()),
+        ("record", record_note(parts.record) + &scaled),
+        ("load", motions(parts)),
+        ("output", format!("{} steps of {} s{multiple}{end}", output.count, number(output.step_s))),
+        ("damping", "proportional damping 0: mass and stiffness coefficient".into()),
+    ]
+}
+
+fn history(parts: &SapModel) -> String {
+    let settings = CaseSettings::of(&parts.even);
     let short = |digits: &str| digits.parse().map_or_else(|_| digits.to_string(), number);
     let [gamma, beta, alpha] = settings.constants().map(number);
     let mut text = "Load case QUAKE: nonlinear direct integration history that continues from \
                     GRAVITY.\n"
         .to_string();
-    for (what, value) in [
-        ("geometry", "P-Delta plus large displacements".to_string()),
-        ("load", motions(parts)),
-        ("output", format!("{} steps of {} s{multiple}{end}", output.count, number(output.step_s))),
-        ("damping", "proportional damping 0: mass and stiffness coefficient".into()),
+    let of_csi = [
         (
             "integration",
             format!("{}, gamma {gamma}, beta {beta}, alpha {alpha}", settings.method()),
@@ -224,8 +240,10 @@ fn history(parts: &SapModel) -> String {
         ),
         // the dialog has both otherwise
         ("stepping", "event-to-event stepping No; at most 0 line searches an iteration".into()),
-    ] {
-        text += &format!("   {what:<COLUMN$}{value}\n");
+    ];
+    let below = format!("\n   {:COLUMN$}", "");
+    for (what, value) in of_any_program(parts).into_iter().chain(of_csi) {
+        text += &format!("   {what:<COLUMN$}{}\n", lines(&value, &below));
     }
     text
 }
@@ -236,17 +254,15 @@ fn motions(parts: &SapModel) -> String {
     let begins = match first == 0.0 {
         true => String::new(),
         false => format!(
-            ";\n   {:COLUMN$}it begins at 0, for the program takes it relative to its first value, \
-             the record's {} m/s2",
-            "",
+            "; it begins at 0, for the program takes it relative to its first value, the record's \
+             {} m/s2",
             number(first)
         ),
     };
     let across = format!(
         "acceleration U1, scale 1: function from file ground_motion.txt beside this one, values \
-         are Time\n   {:COLUMN$}and Function Values, a pair a line, in s and m/s2, scaled already, \
-         no header line{begins}",
-        ""
+         are Time and Function Values, a pair a line, in s and m/s2, scaled already, no header \
+         line{begins}"
     );
     match parts.record.vertical {
         Some(_) => across + "; U3, scale 1: the same from ground_motion_up.txt",

@@ -66,7 +66,7 @@ fn decks_tell_whether_the_steps_or_the_motion_end_the_comparison() {
     let program = CornerProgram::even(&program_row(0.001));
     let motion = [[0.0, -1e-3], [0.02, -0.5e-3], [-0.03, 1e-3]];
     let deck = |format, compared_by_steps| {
-        let ends = EvenEnds { gives_up_s: None, compared_by_steps };
+        let ends = EvenEnds { compared_by_steps, ..EvenEnds::default() };
         ElasticDeck {
             title: "a structure",
             layout: &model.layout,

@@ -31,11 +31,15 @@ fn stepped_deck_of(
     (assembled, program): (&Assembled, &CornerProgram),
     record: &Record,
     format: DeckFormat,
-    CornerHistory { coordinates, gives_up_s, foretold_s, .. }: &CornerHistory,
+    CornerHistory { coordinates, gives_up_s, falls_s, foretold_s }: &CornerHistory,
     until: Option<f64>,
 ) -> Result<SteppedDeck, ExportError> {
     let compared = [until, *foretold_s].into_iter().flatten().min_by(f64::total_cmp);
-    let ends = EvenEnds { gives_up_s: *gives_up_s, compared_by_steps: compared != until };
+    let ends = EvenEnds {
+        gives_up_s: *gives_up_s,
+        falls_s: *falls_s,
+        compared_by_steps: compared != until,
+    };
     let springs = (&program.row.units.chains()[..], Some((program, ends)));
     let text = deck_of(assembled, springs, record, (coordinates, compared), (format, ACCURACY))?;
     Ok(SteppedDeck { text, gives_up_s: *gives_up_s, until })

@@ -13,25 +13,48 @@ fn mm(x: f64) -> String {
     format!("{} mm", significant(1e3 * x, 4))
 }
 
-/// What the joint that is watched does.
-pub(super) fn expected(parts: &SapModel) -> String {
-    let [u, v] = parts.peaks;
-    let until = parts.until.map_or(String::new(), |until| {
-        format!(", to {} s (beyond, {})", significant(until, 4), parts.even.ends.beyond())
-    });
-    let mut text = format!(
-        "To compare, joint {}, {}: after GRAVITY U3 = {}. In QUAKE{until}:\n",
-        parts.watched,
-        parts.watched_is,
-        mm(parts.settled)
-    );
-    if let Some(housner) = parts.housner {
-        text += &format!("   Housner:                 {}\n", range(housner));
+/// What is to come out.
+pub(crate) struct ToCompare {
+    /// Of which joint, up to when.
+    pub head: String,
+    /// What is found by whom: its name, or none, and its words.
+    pub found: Vec<(&'static str, String)>,
+}
+
+impl ToCompare {
+    /// What the joint that is watched does.
+    pub(crate) fn of(parts: &SapModel) -> Self {
+        let [u, v] = parts.peaks;
+        let until = parts.until.map_or(String::new(), |until| {
+            format!(", to {} s (beyond, {})", significant(until, 4), parts.even.ends.beyond())
+        });
+        let head = format!(
+            "To compare, joint {}, {}: after GRAVITY U3 = {}. In QUAKE{until}:",
+            parts.watched,
+            parts.watched_is,
+            mm(parts.settled)
+        );
+        let mut found: Vec<_> = parts.topples().map(|topples| ("", topples)).into_iter().collect();
+        let housner = parts.housner.and_then(|housner| housner.range);
+        found.extend(housner.map(|u| ("Housner", range(u))));
+        let steps = format!("{}, U3 at most {} above that", range(u), mm(v.0));
+        found.push(("these steps (emulated)", steps));
+        found.extend(parts.even.errors().map(|errors| ("", format!("Measured: {errors}."))));
+        Self { head, found }
     }
-    text +=
-        &format!("   these steps (emulated):  {}, U3 at most {} above that\n", range(u), mm(v.0));
-    if let Some(errors) = parts.even.errors() {
-        text += &format!("   Measured: {}.\n", errors.replace("; ", ";\n   "));
+}
+
+/// The same for the sheet.
+pub(super) fn expected(parts: &SapModel) -> String {
+    const NAME: usize = 25;
+    let ToCompare { head, found } = ToCompare::of(parts);
+    let mut text = head + "\n";
+    for (name, words) in found {
+        let name = match name.is_empty() {
+            true => String::new(),
+            false => format!("{:<NAME$}", format!("{name}:")),
+        };
+        text += &format!("   {name}{}\n", lines(&words, "\n   "));
     }
     text + "   The screen and report.html of the run have the answer without springs, up to when a \
             motion can be\n   predicted.\n"
