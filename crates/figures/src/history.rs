@@ -17,6 +17,7 @@ use super::scale::{Scale, around_zero};
 use super::style::{self, BLACK, GREY, NUMBER, Pen, WIDTH};
 use super::{Check, FigureError, Sheet};
 use shown::shown;
+pub(crate) use shown::{last_moving, with_margin};
 
 const CHECK: Check = Check("history");
 const LEFT: f64 = 150.0;

@@ -1,6 +1,7 @@
 //! Quantities against time, one panel each above the other.
 
 use super::canvas::Canvas;
+use super::history::{last_moving, with_margin};
 use super::legend::{self, LegendEntry};
 use super::number::prefix;
 use super::panel::{Panel, PanelFrame};
@@ -38,6 +39,32 @@ pub struct StackFigure<'a> {
     pub panels: &'a [StackQuantity<'a>],
     /// A time from which on curves are not to be compared.
     pub event: Option<EventMark<'a>>,
+}
+
+/// The same figure without the quiet that a record ends in: up to where the last of the quantities
+/// has come to rest, and a margin, as [`super::history`] has it.
+///
+/// # Errors
+/// As [`draw`].
+pub fn draw_while_moving<'a>(data: &StackFigure<'a>) -> Result<Sheet, FigureError> {
+    let last = data.panels.iter().map(|panel| last_moving(panel.curves)).max().unwrap_or(0);
+    let n = with_margin(last, data.t.len());
+    let fits = |curve: &&[f64]| curve.len() <= data.t.len();
+    if n == data.t.len() || !data.panels.iter().flat_map(|panel| panel.curves).all(fits) {
+        return draw(data);
+    }
+    let first = |curves: &[&'a [f64]]| -> Vec<&'a [f64]> {
+        curves.iter().map(|curve| &curve[..n.min(curve.len())]).collect()
+    };
+    let curves: Vec<_> = data.panels.iter().map(|panel| first(panel.curves)).collect();
+    let panels: Vec<StackQuantity> = data
+        .panels
+        .iter()
+        .zip(&curves)
+        .map(|(panel, curves)| StackQuantity { curves, ..*panel })
+        .collect();
+    let event = data.event.filter(|event| event.time <= data.t[n - 1]);
+    draw(&StackFigure { t: &data.t[..n], panels: &panels, event, ..*data })
 }
 
 /// Draw the figure.
@@ -173,5 +200,46 @@ mod tests {
         let panels = [of("base shear"), StackQuantity { curves: &[&tiny], ..of("damper") }];
         assert_eq!(unit(&panels, &panels[1], 0.2).1, "m");
         assert!(draw(&StackFigure { t: &t[..60], ..stack }).is_err());
+    }
+
+    /// Two quantities of other sizes, the smaller one at rest after 20 of 300 s, a slide: what is
+    /// shown is a twelfth more than that, whatever comes of it later; of one that moves to the end,
+    /// all.
+    #[test]
+    fn the_quiet_that_a_record_ends_in_is_left_out() {
+        let t: Vec<f64> = (0..3001).map(|i| 0.1 * f64::from(i)).collect();
+        let moved = |size: f64, until: f64| -> Vec<f64> {
+            let at = |t: &f64| size * if *t < until { (5.0 * t).cos() } else { 0.3 };
+            t.iter().map(at).collect()
+        };
+        let (one, other, long) = (moved(1.0, 8.0), moved(1e-3, 20.0), moved(1.0, 290.0));
+        let event = Some(EventMark { time: 200.0, text: "predictable to t = 200 s" });
+        let svg = |second: &[f64], n: Option<usize>| {
+            let n_or_all = n.unwrap_or(t.len());
+            let [one, second]: [&[f64]; 2] = [&one[..n_or_all], &second[..n_or_all]];
+            let panels = [
+                StackQuantity { name: "rotation", unit: "rad", curves: &[one] },
+                StackQuantity { name: "drift", unit: "m", curves: &[second] },
+            ];
+            let figure = StackFigure {
+                title: "History",
+                t: &t[..n_or_all],
+                names: &["one"],
+                panels: &panels,
+                event: event.filter(|_| n.is_none()),
+            };
+            match n {
+                Some(_) => draw(&figure).unwrap().svg,
+                None => draw_while_moving(&figure).unwrap().svg,
+            }
+        };
+        // the last sample that moves, 199, with 8 % of it
+        let shown = (199.0_f64 * 1.08).ceil() as usize + 2;
+        assert!(svg(&other, None) == svg(&other, Some(shown)));
+        assert!(svg(&long, None).contains("predictable to t = 200 s"));
+        assert!(
+            draw_while_moving(&StackFigure { title: "", t: &[], names: &[], panels: &[], event })
+                .is_err()
+        );
     }
 }

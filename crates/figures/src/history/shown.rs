@@ -15,14 +15,24 @@ pub(super) fn shown(data: &HistoryFigure<'_>) -> usize {
     let all = data.t.len();
     let compared = |trace: &&Trace| !trace.behind;
     let traces = || std::iter::once(&data.reference).chain(data.others).filter(compared);
-    let largest = traces().flat_map(|trace| trace.u).fold(0.0_f64, |most, u| most.max(u.abs()));
-    let moves = |trace: &Trace| {
-        let rest = trace.u.last().copied().unwrap_or(0.0);
-        let last = trace.u.iter().rposition(|u| (u - rest).abs() > AT_REST * largest);
-        let end = trace.end.map(|end| data.t.partition_point(|t| *t <= end.time));
-        last.max(end).unwrap_or(0)
+    let curves: Vec<&[f64]> = traces().map(|trace| trace.u).collect();
+    let end = |trace: &Trace| trace.end.map(|end| data.t.partition_point(|t| *t <= end.time));
+    let last = traces().filter_map(end).max().unwrap_or(0);
+    with_margin(last.max(last_moving(&curves)), all)
+}
+
+/// The last sample at which one of these curves of a quantity is not where it comes to rest.
+pub(crate) fn last_moving(curves: &[&[f64]]) -> usize {
+    let largest = curves.iter().copied().flatten().fold(0.0_f64, |most, u| most.max(u.abs()));
+    let moves = |u: &&[f64]| {
+        let rest = u.last().copied().unwrap_or(0.0);
+        u.iter().rposition(|u| (u - rest).abs() > AT_REST * largest)
     };
-    let last = traces().map(moves).max().unwrap_or(0);
+    curves.iter().filter_map(moves).max().unwrap_or(0)
+}
+
+/// Samples to show, of so many, of what moves up to the sample `last`.
+pub(crate) fn with_margin(last: usize, all: usize) -> usize {
     match (last as f64 * (1.0 + MARGIN)).ceil() as usize + 2 {
         n if last > 0 && (n as f64) < QUIET * all as f64 => n,
         _ => all,

@@ -76,8 +76,13 @@ fn history(run: &ElasticRun) -> Result<Figure, FigureError> {
     let event = event.as_ref().map(|(time, text)| EventMark { time: *time, text });
     let title = title(run, "Rotation on the ground, and drift without it");
     let names = ["rigid ground, plastic landings", "finite elements on ground springs"];
-    let sheet =
-        stack::draw(&StackFigure { title: &title, t: &t, names: &names, panels: &panels, event })?;
+    let sheet = stack::draw_while_moving(&StackFigure {
+        title: &title,
+        t: &t,
+        names: &names,
+        panels: &panels,
+        event,
+    })?;
     let caption = "Rotation of the footing (of the line between the feet), drift of the mass \
                    without the rigid rotation, and where feet land elsewhere than they stood.";
     Ok(Figure { name: draw::HISTORY, caption, sheet })
