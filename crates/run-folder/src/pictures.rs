@@ -8,6 +8,7 @@ use crate::FolderError;
 use cases::Case;
 use dynamics::{compare::Match, fem::History};
 use figures::{EventMark, Figure, FigureError, Sheet, brief, short};
+use files::message::significant;
 use parameters::answers::ModelComparison;
 use report::stiffness_tradeoff::TradeoffPoint;
 use rocking::{
@@ -329,7 +330,8 @@ impl Pictures<'_> {
 
 /// What a figure is of, in a line: the structure, the motions, Omega_n.
 pub fn subtitle(structure: &Structure, motions: &str, omega_n_hz: f64) -> String {
-    let Structure { height_m, width_m, .. } = structure;
+    // to read: what was typed in inches has 16 digits
+    let [height_m, width_m] = [structure.height_m, structure.width_m].map(|x| significant(x, 6));
     let body = match structure.kind {
         BodyKind::AFrame => format!("A-frame {height_m} m high, feet {width_m} m apart"),
         BodyKind::Block => format!("block with its mass at {height_m} m, {width_m} m wide"),
@@ -354,4 +356,17 @@ fn event(end: &Option<(f64, String)>) -> Option<EventMark<'_>> {
 pub(crate) fn save(dir: &Path, figures: &[Figure]) -> Result<(), FolderError> {
     let save = |figure: &Figure| figure.sheet.save(&dir.join(figure.name).with_extension("png"));
     Ok(parallel::map(figures, save).into_iter().collect::<Result<(), FigureError>>()?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 24 inches, typed.
+    #[test]
+    fn a_subtitle_has_few_digits() {
+        let block = Structure::block(2.286, 0.609_599_999_999_999_9, 952.5).unwrap();
+        let told = subtitle(&block, "motion", 50e3);
+        assert_eq!(told, "block with its mass at 1.143 m, 0.6096 m wide; motion; Ωₙ/2π = 50 kHz");
+    }
 }
