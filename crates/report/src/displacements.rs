@@ -8,6 +8,8 @@ use results::{PeakPair, PeakTimes, Peaks};
 type PeakRow =
     (&'static str, fn(&Peaks) -> Option<f64>, fn(f64) -> String, fn(&PeakTimes) -> Option<f64>);
 
+/// The row of the largest displacement.
+const TOP: &str = "top displacement";
 /// The row of the friction needed.
 pub(crate) const FRICTION: &str = "friction needed";
 /// The row of how far from where they stood feet have landed, when the top's displacement is
@@ -30,7 +32,7 @@ const DIFFERS: f64 = 1e-4;
 const NOT_SAID: f64 = 0.005;
 
 const ROWS: [PeakRow; 10] = [
-    ("top displacement", |p| Some(p.top_displacement_m), meters, at_top),
+    (TOP, |p| Some(p.top_displacement_m), meters, at_top),
     ("  of it by rocking", |p| Some(p.then?.rocking_m), meters, at_top),
     ("  of it by bending", |p| Some(p.then?.bending_m), meters, at_top),
     (MOVED, |p| Some(p.then?.feet_moved_m), meters, at_top),
@@ -85,6 +87,20 @@ fn drift_named(name: &'static str, pair: &PeakPair) -> &'static str {
     };
     let any = [Some(&pair.springs), pair.with_members.as_ref()].into_iter().flatten().any(sways);
     if name == DRIFT_RATIO && any { OF_ROCKING } else { name }
+}
+
+/// Of which column a displacement of the top and its parts are, and when it is largest; nothing of
+/// a structure without several columns. Where models differ, of both.
+fn column_named(pair: &PeakPair) -> String {
+    let of = |peaks: &Peaks| Some((peaks.then?.column?, peaks.times?.top_displacement_s));
+    let at = |s: f64| format!("{} s", significant(s, 4));
+    match (of(&pair.reference), of(&pair.springs)) {
+        (Some((one, s)), Some((other, t))) if one != other => {
+            format!(" (column {one} at {}, {other} at {})", at(s), at(t))
+        }
+        (_, Some((column, t))) => format!(" (column {column} at {})", at(t)),
+        _ => String::new(),
+    }
 }
 
 /// The table; none of springs without a record.
@@ -147,11 +163,12 @@ pub fn peak_table(run: &Run) -> Option<Table> {
         } else {
             ""
         };
+        let column = if name == TOP { column_named(pair) } else { String::new() };
         let cell = |value: f64, peaks: &Peaks, until: Option<f64>| {
             format!("{}{}", words(value), if late(when, peaks, until) { "*" } else { "" })
         };
         let mut row = vec![
-            format!("{}{counted}", drift_named(name, pair)),
+            format!("{}{counted}{column}", drift_named(name, pair)),
             cell(a, &pair.reference, without),
             cell(b, &pair.springs, without),
             difference,
@@ -174,7 +191,7 @@ type SummaryRow =
     (&'static str, fn(&Peaks) -> Option<f64>, &'static str, fn(&PeakTimes) -> Option<f64>);
 
 const SUMMARY: [SummaryRow; 7] = [
-    ("top displacement", |p| Some(p.top_displacement_m), "m", at_top),
+    (TOP, |p| Some(p.top_displacement_m), "m", at_top),
     ("largest by rocking", |p| p.bending_m.map(|_| p.rocking_m), "m", |t| Some(t.rocking_s)),
     ("largest by bending", |p| p.bending_m, "m", |t| t.bending_s),
     ("largest feet moved", |p| p.feet_moved_m, "m", |t| t.feet_moved_s),
@@ -245,6 +262,7 @@ fn counted_impacts(with_members: Option<&Peaks>) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use results::PartsOfTop;
     use rocking::structure::Structure;
 
     /// A block that turns to 0.001 alpha and back lands more gently than from 0.02 alpha.
@@ -260,5 +278,30 @@ mod tests {
         for other in [None, Some(&of(1e-3, 2)), Some(&of(0.0, 0))] {
             assert_eq!(counted_impacts(other), " (above 0.02 alpha)");
         }
+    }
+
+    /// Parts of a top's displacement are of one column at one time; of a pier there is one alone.
+    #[test]
+    fn a_displacement_of_a_frame_says_of_which_column_it_is() {
+        let block = Structure::block(2.4, 1.2, 1000.0).unwrap();
+        let of = |column: Option<usize>, top_displacement_s: f64| {
+            let theta = [0.0, 0.01, 0.0];
+            let peaks = Peaks::of_rigid((block.kind, &block.body()), 0.01, &theta, None, 0);
+            let then = Some(PartsOfTop { column, ..PartsOfTop::default() });
+            Peaks {
+                then,
+                times: Some(PeakTimes { top_displacement_s, ..PeakTimes::default() }),
+                ..peaks
+            }
+        };
+        let told = |reference, springs| {
+            column_named(&PeakPair { reference, springs, ..PeakPair::default() })
+        };
+        assert_eq!(told(of(Some(1), 4.82), of(Some(1), 4.83)), " (column 1 at 4.83 s)");
+        assert_eq!(
+            told(of(Some(2), 4.82), of(Some(1), 16.224)),
+            " (column 2 at 4.82 s, 1 at 16.22 s)"
+        );
+        assert_eq!(told(of(None, 4.82), of(None, 4.83)), "");
     }
 }

@@ -52,6 +52,9 @@ pub struct Peaks {
 /// Parts of the top's displacement at one time, with the sign that it has (m).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PartsOfTop {
+    /// Of which column they are, counted from the left, of a structure with several.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub column: Option<usize>,
     /// By rotation of the base.
     pub rocking_m: f64,
     /// By bending.

@@ -148,7 +148,7 @@ function showSaid(said, ofRun = false) {
     ["lifts at", `${digits(w.uplift_g, 3)} g`, `the ground has ${digits(pga, 3)}\u00a0g`],
     ["restitution", digits(w.restitution, 3), "speed kept in an impact"],
   ];
-  if (typeof p?.bending_m === "number") tiles.splice(2, 0, ["by bending", small(p.bending_m), "of the column"]);
+  if (typeof p?.bending_m === "number") tiles.splice(2, 0, ["by bending", small(p.bending_m), "largest of a column"]);
   if (typeof said.friction_needed === "number") tiles.push(["friction needed", digits(said.friction_needed, 3), "not to slide"]);
   $("tiles").innerHTML = tiles.map(([name, x, more]) => `<div><dt>${name}</dt><dd>${escape(x)}<small>${escape(more) || "&nbsp;"}</small></dd></div>`).join("");
   $("remarks").innerHTML = said.findings.filter((f) => f.weight !== "answer").map((f) => `<li class="${escape(f.weight)}">${escape(onPage(`${f.message}${f.remedy ? `; ${f.remedy}` : ""}`))}</li>`).join("");

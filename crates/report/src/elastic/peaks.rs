@@ -86,7 +86,9 @@ impl<'a, Q: Iterator<Item = &'a [f64]>> HistoryParts<'a, Q> {
         let mut then = PartsOfTop::default();
         for (i, q) in q.enumerate() {
             let now = |value: f64| TimedPeak { value, time: i as f64 * dt };
-            for (watched, Sway { rotation, drift }) in assembled.watched.iter().zip(sways) {
+            for (column, (watched, Sway { rotation, drift })) in
+                assembled.watched.iter().zip(sways).enumerate()
+            {
                 let [x, ..] = frame.displacement(watched.top, q);
                 let feet = watched.base.feet_moved(frame, q);
                 moved = moved.larger(now(feet));
@@ -95,6 +97,7 @@ impl<'a, Q: Iterator<Item = &'a [f64]>> HistoryParts<'a, Q> {
                 if x.abs() > top.value.abs() {
                     let sign = x.signum();
                     then = PartsOfTop {
+                        column: (sways.len() > 1).then_some(column + 1),
                         rocking_m: sign * (x - feet - across),
                         bending_m: sign * across,
                         feet_moved_m: sign * feet,
