@@ -241,8 +241,8 @@ impl ProgramReport {
 
 /// What errors are of, and what is known of the record's motion.
 fn told([peaks, motions]: [&'static str; 2], elastic: bool, findings: &[FiledFinding]) -> ErrorsOf {
-    let (sensitive, until) = (is_sensitive(findings), predictable_to(findings));
-    ErrorsOf { peaks, motions, elastic, sensitive, until }
+    let (moved, until) = (moved_by_little(findings), predictable_to(findings));
+    ErrorsOf { peaks, motions, elastic, moved, until }
 }
 
 /// The ground motion, for a screen: direction, factor, file, its columns.
@@ -319,7 +319,7 @@ pub fn with_verdict<U>(
     let Some(row) = row else { return findings };
     row.asked = asked;
     let all = filed(findings.clone());
-    let (predictable, until_s) = (Some(!is_sensitive(&all)), predictable_to(&all));
+    let (predictable, until_s) = (Some(moved_by_little(&all).is_none()), predictable_to(&all));
     row.on_record = row.on_record.map(|on| ProgramOnRecord { predictable, until_s, ..on });
     let not_to_be_used = row.not_to_be_used();
     row.not_to_be_used = not_to_be_used;
@@ -368,10 +368,18 @@ pub(crate) fn lost<U>(row: &ProgramRow<U>, asked: bool) -> Option<Finding> {
     many.then_some(Finding::ProgramLoses { program, step_s, lost, histories, csi, asked })
 }
 
-/// Whether a small change moves the motion on the record by much: then what a program errs there
-/// tells nothing of its springs.
-fn is_sensitive(findings: &[FiledFinding]) -> bool {
-    findings.iter().any(|filed| matches!(filed.finding, Finding::IllConditioned { .. }))
+/// By how much a change of 0.1 % moves the motion on the record (NRMSE), where that is so much that
+/// what a program errs there tells nothing of its springs.
+fn moved_by_little(findings: &[FiledFinding]) -> Option<f64> {
+    findings.iter().find_map(|filed| match filed.finding {
+        Finding::IllConditioned {
+            moved_by_width, moved_by_scale, moved_by_restitution, ..
+        } => {
+            let restitution = moved_by_restitution.unwrap_or(0.0);
+            Some(moved_by_width.max(moved_by_scale).max(restitution))
+        }
+        _ => None,
+    })
 }
 
 #[cfg(test)]

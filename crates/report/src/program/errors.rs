@@ -24,8 +24,9 @@ pub(super) struct ErrorsOf {
     pub motions: &'static str,
     /// Whether the structure is elastic.
     pub elastic: bool,
-    /// Whether a small change moves the motion on the record by much.
-    pub sensitive: bool,
+    /// By how much a change of 0.1 % moves the motion on the record, where that is too much to tell
+    /// what springs err there (NRMSE).
+    pub moved: Option<f64>,
     /// Up to when it can be, if not to its end (s).
     pub until: Option<f64>,
 }
@@ -34,7 +35,7 @@ pub(super) struct ErrorsOf {
 /// 90 % are below.
 pub(super) fn errors<U>(
     row: &ProgramRow<U>,
-    ErrorsOf { peaks, motions, sensitive, until, .. }: ErrorsOf,
+    ErrorsOf { peaks, motions, moved, until, .. }: ErrorsOf,
     words: ErrorWords,
 ) -> String {
     if let Some(why) = row.not_to_be_used() {
@@ -86,7 +87,7 @@ pub(super) fn errors<U>(
         format!("it overturns in these steps at {} s{doubt}; ", significant(s, 3))
     });
     let fewest = words == ErrorWords::Fewest;
-    let here = top.map_or(nothing(), |top| here((top, nrmse), (sensitive, until), fewest));
+    let here = top.map_or(nothing(), |top| here((top, nrmse), (moved, until)));
     if fewest {
         let peaks = if name.starts_with("earthquake") {
             format!("on earthquakes {peaks}")
@@ -111,20 +112,22 @@ pub(super) fn errors<U>(
     format!("{ends}{fails}{here}{falls}{within}")
 }
 
+/// That errors on the record tell little of the springs: by how much it is moved by a small change,
+/// in the words of the finding.
+fn doubt(moved: f64) -> String {
+    let by = match moved {
+        x if x < 10.0 => format!("{} %", significant(100.0 * x, 2)),
+        x => percent(x),
+    };
+    format!(" (a change of 0.1 % moves it by {by})")
+}
+
 /// What the largest displacement on the record and its history err by, up to when it can be
 /// predicted (s).
-fn here(
-    (top, nrmse): (f64, Option<f64>),
-    (sensitive, until): (bool, Option<f64>),
-    fewest: bool,
-) -> String {
+fn here((top, nrmse): (f64, Option<f64>), (moved, until): (Option<f64>, Option<f64>)) -> String {
     let nrmse = nrmse.map_or(String::new(), |x| format!(", NRMSE {}", significant(x, 2)));
     let to = until.map_or(String::new(), |until| format!(" to {} s", significant(until, 3)));
-    let doubt = match (fewest, sensitive) {
-        (_, false) => "",
-        (true, true) => " (not predictable)",
-        (false, true) => " (too sensitive to tell)",
-    };
+    let doubt = moved.map_or(String::new(), doubt);
     format!("this record{to}: top {}{nrmse}{doubt}; ", signed_percent(top))
 }
 
@@ -181,7 +184,7 @@ pub(super) fn table<U>(row: &ProgramRow<U>, of: &ErrorsOf) -> Table {
 /// A row of what is measured on the record of the run, up to when it can be predicted.
 fn on_record(on: ProgramOnRecord, of: &ErrorsOf) -> Option<Vec<String>> {
     let to = of.until.map_or(String::new(), |until| format!(" to {} s", significant(until, 3)));
-    let doubt = if of.sensitive { " (too sensitive to tell)" } else { "" };
+    let doubt = of.moved.map_or(String::new(), doubt);
     let nrmse = on.nrmse.map_or("-".into(), |x| significant(x, 2));
     let none = || "-".to_string();
     let top = format!("top {}", signed_percent(on.top?));

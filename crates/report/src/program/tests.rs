@@ -69,3 +69,29 @@ fn the_law_of_a_rigid_body_is_told_of_one_alone() {
     let of_record = &elastic.table.unwrap().rows[2];
     assert_eq!(of_record[..2], ["measured on this record", "0.089"]);
 }
+
+/// The doubt of the record's errors is the number of the finding, in every place the same, and says
+/// nothing of what can be predicted.
+#[test]
+fn what_a_small_change_moves_is_told_in_one_way() {
+    let finding = Finding::IllConditioned {
+        moved_by_width: 0.0077,
+        moved_by_scale: 0.0095,
+        moved_by_restitution: Some(0.009_62),
+        holds_to_s: None,
+        springs_judged: true,
+    };
+    let said = ProgramReport::new(
+        &row(16),
+        Vec::new(),
+        (None, None),
+        told(["peaks", "motions"], true, &filed(vec![finding])),
+    );
+    let told = "(a change of 0.1 % moves it by 0.96 %)";
+    let section = said.section();
+    let cell = section.table.unwrap().rows[2][0].clone();
+    for text in said.lines().into_iter().chain([section.text[1].clone(), cell]) {
+        assert!(text.contains(told) && !text.contains("predictable"), "{text}");
+    }
+    assert!(!report(true).line().contains("0.1 %"));
+}
