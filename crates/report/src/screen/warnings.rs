@@ -1,5 +1,7 @@
 //! Warnings at the end of the screen, in the room that is left.
 
+use std::cmp::Reverse;
+
 use super::{LINES, lines::wrapped};
 use crate::{Run, sentence};
 use results::{FiledFinding, Finding, Weight};
@@ -33,6 +35,17 @@ pub(super) fn is_doubt(filed: &FiledFinding) -> bool {
 /// Whether the line of the program says it already.
 fn is_of_program(filed: &FiledFinding) -> bool {
     matches!(filed.finding, Finding::ProgramNotToBeUsed { .. } | Finding::ProgramStepTooLong { .. })
+}
+
+/// Whether it is about the program that the user asked for: this is told before what the screen
+/// may have no room for.
+fn is_of_asked(finding: &Finding) -> bool {
+    matches!(
+        finding,
+        Finding::ProgramErrsOnEarthquakes { asked: true, .. }
+            | Finding::ProgramSpread { asked: true, .. }
+            | Finding::ProgramLoses { asked: true, .. }
+    )
 }
 
 /// Whether the table of design forces says it already.
@@ -72,11 +85,10 @@ pub(super) fn warnings(run: &Run, of_decks: &[String]) -> Vec<Warned> {
         Warned { name: WARNING, text: format!("{message}.{remedy}") }
     };
     let grave = |filed: &FiledFinding| {
-        let key = (std::cmp::Reverse(filed.weight), urgency(&filed.finding));
+        let key = (Reverse(filed.weight), !is_of_asked(&filed.finding), urgency(&filed.finding));
         (key, Warned::of(WARNING, filed))
     };
-    let decks =
-        of_decks.iter().map(|line| ((std::cmp::Reverse(Weight::Warning), DECK), of_deck(line)));
+    let decks = of_decks.iter().map(|line| ((Reverse(Weight::Warning), true, DECK), of_deck(line)));
     let mut all: Vec<_> = of_run.map(grave).chain(decks).collect();
     all.sort_by_key(|(key, _)| *key);
     all.into_iter().map(|(_, warned)| warned).collect()
@@ -129,6 +141,27 @@ mod tests {
         let force = Finding::ForcesAtRest { forces: Vec::new(), tied: false };
         let all = [sliding, feet, left_out, force].map(|finding| urgency(&finding));
         assert!(all[0] < all[1] && all[1] < all[2] && all[2] <= all[3], "{all:?}");
+    }
+
+    /// What is said of the program that was asked for stands before all that is as grave.
+    #[test]
+    fn what_the_program_asked_for_errs_is_told_first() {
+        let errs = |asked| Finding::ProgramErrsOnEarthquakes {
+            program: "SAP2000".into(),
+            step_s: 0.002,
+            median: Some(0.108),
+            motions: 16,
+            floor: 0.065,
+            asked,
+        };
+        let sliding =
+            Finding::Sliding { needed: 2.8, time_s: None, available: 0.5, press_over_weight: None };
+        let all = [errs(true), errs(false), sliding].map(|finding| is_of_asked(&finding));
+        assert_eq!(all, [true, false, false]);
+        let key = |finding: &Finding| (!is_of_asked(finding), urgency(finding));
+        let sliding =
+            Finding::Sliding { needed: 2.8, time_s: None, available: 0.5, press_over_weight: None };
+        assert!(key(&errs(true)) < key(&sliding) && key(&sliding) < key(&errs(false)));
     }
 
     #[test]
