@@ -102,9 +102,11 @@ pub(crate) fn no_program(run: &Run) -> &'static str {
 
 /// The deck of OpenSees with steps of one size.
 pub const EVEN_DECK: &str = "model_even.py";
-/// The model for SAP2000 as a sheet to type from.
+/// The model for SAP2000 as tables to import.
+pub const TABLES: &str = "model_sap2000.s2k";
+/// The same as a sheet to type from.
 pub const SHEET: &str = "sap2000_by_hand.txt";
-/// The same for ETABS.
+/// The sheet for ETABS.
 pub const ETABS_SHEET: &str = "etabs_by_hand.txt";
 /// What a unit is made of, from above.
 const UNIT: &str = "foot - k1 (gap) - m2 - k2 and c - ground";
@@ -136,21 +138,42 @@ impl Written<'_> {
     /// The last line: where the report is, how many warnings are there alone, and the file to type
     /// a model from for a program.
     fn report_line(&self, warnings: usize, sheet: Option<&str>) -> String {
+        let all = self.report_and(warnings);
+        let Some(sheet) = sheet.filter(|_| self.decks) else { return all };
+        // a path to copy, if there is room for it
+        let path = format!("{}/decks/{sheet}", self.folder.trim_end_matches('/'));
+        let places = [path, format!("decks/{sheet} beside it")];
+        let lines = places.map(|place| format!("{all}; type it from {place}"));
+        lines.into_iter().find(|line| line.chars().count() <= WIDTH).unwrap_or(all)
+    }
+
+    fn report_and(&self, warnings: usize) -> String {
         let name = if self.report { "report.html" } else { "parameters.json" };
         let more = match warnings {
             0 => String::new(),
             1 => ", with 1 more warning".into(),
             more => format!(", with {more} more warnings"),
         };
-        let all = format!("{REPORT}{}{more}", self.file(name));
-        let Some(sheet) = sheet.filter(|_| self.decks) else { return all };
-        let to_type = if sheet == ETABS_SHEET { "ETABS: to be typed" } else { "type it" };
-        // a path to copy, if there is room for it
-        let path = format!("{}/decks/{sheet}", self.folder.trim_end_matches('/'));
-        let places = [path, format!("decks/{sheet} beside it")];
-        let lines = places.map(|place| format!("{all}; {to_type} from {place}"));
-        lines.into_iter().find(|line| line.chars().count() <= WIDTH).unwrap_or(all)
+        format!("{REPORT}{}{more}", self.file(name))
     }
+
+    /// The files of a program that was asked for, if the report's line has no room for them.
+    fn files_alone(&self, run: &Run) -> Option<String> {
+        const MANY: usize = 10;
+        let files = asked_files(run).filter(|_| self.decks)?;
+        let together = self.report_and(MANY).chars().count() + files.chars().count() + 2;
+        (together > WIDTH || !self.report).then_some(files)
+    }
+}
+
+/// The files of the model for SAP2000 or ETABS, where a user asked for that.
+fn asked_files(run: &Run) -> Option<String> {
+    let program = run.program.as_ref().filter(|program| program.asked)?;
+    let sheet = sheet_of(run)?;
+    Some(match program.etabs {
+        true => format!("type it from decks/{sheet}"),
+        false => format!("decks/{TABLES}, {sheet}"),
+    })
 }
 
 /// The screen: at most `LINES` lines of at most `WIDTH` letters.
@@ -171,7 +194,15 @@ pub fn screen(run: &Run, written: &Written) -> String {
     lines.truncate(LINES - 1);
     let left_out = tell(&warnings, &mut lines);
     if written.report || left_out > 0 {
-        lines.push(written.report_line(left_out, sheet_of(run)));
+        // what was asked for is told in any case
+        let files = asked_files(run).filter(|_| written.decks);
+        lines.push(match files {
+            Some(files) if written.files_alone(run).is_none() => {
+                format!("{}; {files}", written.report_and(left_out))
+            }
+            Some(_) => written.report_and(left_out),
+            None => written.report_line(left_out, sheet_of(run)),
+        });
     }
     lines.join("\n") + "\n"
 }
@@ -337,6 +368,9 @@ fn next(run: &Run, written: &Written, crowding: Crowding, lines: &mut Vec<String
             if written.decks && program.deck_of_even_steps && program.usable {
                 let deck = format!("python3 {}", written.file(&format!("decks/{EVEN_DECK}")));
                 lines.extend(wrapped("its deck  ", &deck));
+            }
+            if let Some(files) = written.files_alone(run) {
+                lines.extend(wrapped("its model ", &files));
             }
         }
         None => lines.extend(wrapped("SAP2000   ", no_program(run))),

@@ -2,13 +2,10 @@
 
 use decks::{DeckFormat, ExportError, SteppedDeck, Stepping, sap_function};
 use parameters::program::ProgramRow;
-use report::screen::{ETABS_SHEET, EVEN_DECK, SHEET};
+use report::screen::{ETABS_SHEET, EVEN_DECK, SHEET, TABLES};
 use strong_motion::Record;
 
 use crate::{FolderError, texts::RunTexts};
-
-/// SAP2000's tables.
-const SAP2000: &str = "model_sap2000.s2k";
 
 /// The decks of `tune run` on springs for steps that follow touches.
 const DECKS: [DeckFormat; 4] =
@@ -17,7 +14,7 @@ const DECKS: [DeckFormat; 4] =
 /// The name of a deck in the folder of a run.
 pub fn deck_name(format: DeckFormat, stepping: Stepping, etabs: bool) -> &'static str {
     match (format, stepping) {
-        (DeckFormat::Sap2000, _) => SAP2000,
+        (DeckFormat::Sap2000, _) => TABLES,
         (DeckFormat::Sap2000Sheet, _) if etabs => ETABS_SHEET,
         (DeckFormat::Sap2000Sheet, _) => SHEET,
         (DeckFormat::OpenSeesPy, Stepping::Events) => "model_openseespy.py",
