@@ -367,6 +367,6 @@ mod tests {
     fn a_subtitle_has_few_digits() {
         let block = Structure::block(2.286, 0.609_599_999_999_999_9, 952.5).unwrap();
         let told = subtitle(&block, "motion", 50e3);
-        assert_eq!(told, "block with its mass at 1.143 m, 0.6096 m wide; motion; Ωₙ/2π = 50 kHz");
+        assert_eq!(told, "block with its mass at 1.143 m, 0.6096 m wide; motion; Ωₙ/2π = 50.0 kHz");
     }
 }
