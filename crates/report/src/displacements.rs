@@ -78,15 +78,15 @@ fn percents(x: f64) -> String {
     format!("{} %", significant(1e2 * exact(x), 3))
 }
 
-/// The name of a row, that of the drift ratio saying what it is of, where springs move the top of a
-/// rigid body by other than its rotation.
-fn drift_named(name: &'static str, pair: &PeakPair) -> &'static str {
+/// The name of the drift ratio, which says what it is of where springs move the top of a rigid body
+/// by other than its rotation.
+fn drift_named(pair: &PeakPair) -> &'static str {
     let sways = |peaks: &Peaks| {
         let apart = (peaks.top_displacement_m - peaks.rocking_m).abs();
         peaks.bending_m.is_none() && apart > DIFFERS * peaks.top_displacement_m
     };
     let any = [Some(&pair.springs), pair.with_members.as_ref()].into_iter().flatten().any(sways);
-    if name == DRIFT_RATIO && any { OF_ROCKING } else { name }
+    if any { OF_ROCKING } else { DRIFT_RATIO }
 }
 
 /// Of which column a displacement of the top and its parts are, and when it is largest; nothing of
@@ -100,6 +100,15 @@ fn column_named(pair: &PeakPair) -> String {
         }
         (_, Some((column, t))) => format!(" (column {column} at {})", at(t)),
         _ => String::new(),
+    }
+}
+
+/// The name of a row, with what it is of.
+fn named(name: &str, pair: &PeakPair) -> String {
+    match name {
+        TOP => format!("{TOP}{}", column_named(pair)),
+        DRIFT_RATIO => drift_named(pair).into(),
+        _ => name.into(),
     }
 }
 
@@ -163,12 +172,11 @@ pub fn peak_table(run: &Run) -> Option<Table> {
         } else {
             ""
         };
-        let column = if name == TOP { column_named(pair) } else { String::new() };
         let cell = |value: f64, peaks: &Peaks, until: Option<f64>| {
             format!("{}{}", words(value), if late(when, peaks, until) { "*" } else { "" })
         };
         let mut row = vec![
-            format!("{}{counted}{column}", drift_named(name, pair)),
+            format!("{}{counted}", named(name, pair)),
             cell(a, &pair.reference, without),
             cell(b, &pair.springs, without),
             difference,

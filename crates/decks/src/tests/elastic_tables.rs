@@ -17,9 +17,10 @@ pub(super) const PIER: &str = "kind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nma
     column_mass_kg = 40e3\nelements = 3\n";
 pub(super) const LEGS: &str = "kind = 'aframe'\nheight_m = 30.0\nwidth_m = 4.0\nmass_kg = 400e3\n\
     foot_mass_kg = 10e3\nea_n = 3e10\nei_nm2 = 2.5e9\ndamping_ratio = 0.02\n";
-pub(super) const PORTAL: &str = "kind = 'frame'\nheight_m = 12.0\nspan_m = 10.0\nfooting_width_m = 3.0\n\
-    footing_height_m = 1.5\nfooting_mass_kg = 40e3\nbeam_mass_kg = 500e3\ncolumn_ea_n = 3.4e10\n\
-    column_ei_nm2 = 3e9\nbeam_ea_n = 4e10\nbeam_ei_nm2 = 1e10\ndamping_ratio = 0.02\n";
+pub(super) const PORTAL: &str = "kind = 'frame'\nheight_m = 12.0\nspan_m = 10.0\n\
+    footing_width_m = 3.0\nfooting_height_m = 1.5\nfooting_mass_kg = 40e3\nbeam_mass_kg = 500e3\n\
+    column_ea_n = 3.4e10\ncolumn_ei_nm2 = 3e9\nbeam_ea_n = 4e10\nbeam_ei_nm2 = 1e10\n\
+    damping_ratio = 0.02\n";
 
 pub(super) fn structure(text: &str) -> ElasticStructure {
     toml::from_str::<ElasticStructure>(text).unwrap().checked().unwrap()

@@ -59,7 +59,7 @@ fn joints_have_the_masses_and_weights_of_the_structure() {
         // the same load case in both, and what comes out
         let (table, sheet) = (one_line(&table), one_line(&sheet));
         for said in [
-            "IELC180: 3995 samples, dt 0.01 s, peak 0.3129 g; m/s2, positive to the right; scale 1,",
+            "IELC180: 3995 samples, dt 0.01 s, peak 0.3129 g; m/s2, positive to the right; scale 1",
             "from file ground_motion.txt beside this one",
             "2 steps of 0.01 s",
             "proportional damping 0",
