@@ -221,7 +221,7 @@ mod tests {
         };
         assert!(said(1.3e-3, 1e6).contains("on the record is within"));
         // landings of alpha 0.1 hold from an Omega_n/p of 1.7e5 on
-        assert!(said(1e-5, 1.8e5).contains("landings, from 0.02 alpha"));
+        assert!(said(1e-5, 1.8e5).contains("landings from 0.02 alpha"));
         assert!(said(1e-5, 1.6e5).starts_with("the best of those tried"));
         assert!(said(1.5e-3, 1e6).starts_with("the best of those tried"));
     }
