@@ -569,7 +569,7 @@ def tune(
     step            its time step, s; 0.001 unless given
     integrator      its integrator: "hht:ALPHA" (0 to -1/2), "newmark:GAMMA:BETA", "generalized-alpha:RHO", "trbdf2"
                     or "backward-euler"; alone, any program that has it
-    substeps        a step that fails is halved, down to one in so many; 16 unless given
+    substeps        a step that fails is halved, down to one in so many, a power of two; 16 unless given
 
     ValueError: no springs settle as little as asked for; a number out of its range; an integrator that the program
     does not have.

@@ -18,7 +18,7 @@ pub struct ProgramArguments {
 impl ProgramArguments {
     /// The case with this program; as it is where nothing asks for one.
     ///
-    /// ValueError: a name, a step, an integrator, a number of substeps that cannot be.
+    /// ValueError: a name, a step, an integrator, a number of substeps that are not allowed.
     pub fn of(self, case: Case) -> PyResult<Case> {
         let Self { program, step, integrator, substeps } = self;
         let section = ProgramSection { name: program, step_s: step, integrator, substeps };

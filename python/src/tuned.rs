@@ -197,7 +197,8 @@ fn run(
 /// integrator      its integrator: "hht:ALPHA" (0 to -1/2), "newmark:GAMMA:BETA",
 ///                 "generalized-alpha:RHO", "trbdf2" or "backward-euler"; alone, any program that
 ///                 has it
-/// substeps        a step that fails is halved, down to one in so many; 16 unless given
+/// substeps        a step that fails is halved, down to one in so many, a power of two; 16
+///                 unless given
 ///
 /// ValueError: no springs settle as little as asked for; a number out of its range; an integrator
 /// that the program does not have.

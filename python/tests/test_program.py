@@ -59,7 +59,8 @@ def test_springs_of_no_use_are_a_warning() -> None:
         ({"step": 0.0}, r"^step is 0\.0; give a time step between 1e-6 and 0\.1 s"),
         ({"integrator": "wilson"}, r'^integrator is "wilson"; give newmark:GAMMA:BETA'),
         ({"program": "sap2000", "integrator": "trbdf2"}, r'^integrator is "trbdf2"; SAP2000 takes '),
-        ({"substeps": 0}, r"^substeps is 0; give a number from 1 to 4096"),
+        ({"substeps": 0}, r"^substeps is 0; give a power of two from 1 to 4096"),
+        ({"substeps": 3}, r"^substeps is 3; give a power of two from 1 to 4096"),
     ],
 )
 def test_what_no_program_can_be_is_told(asked: dict[str, object], words: str) -> None:

@@ -264,7 +264,7 @@ impl ElasticDeck<'_> {
     }
 
     /// What damping the beams have, with its coefficients over stiffness, what a deck has `here` of
-    /// it, and that another one errs otherwise; nothing of a structure without.
+    /// it, and that with another one the errors differ; nothing of a structure without.
     pub(super) fn damping(&self, here: &str) -> Option<String> {
         let over = |damping: f64, stiffness: f64| match stiffness > 0.0 {
             true => damping / stiffness,

@@ -46,15 +46,15 @@ fn joints(parts: &SapModel, places: &[NamedSprings]) -> String {
     }
     let weight = parts.joints.iter().map(|joint| joint.mass).sum::<f64>() * GRAVITY;
     text += &format!(
-        "\nA joint that is rigid with another one is joined to it by a stiff arm. All weigh {} N, \
-         g = {GRAVITY} m/s2",
+        "\nA joint that is rigid with another one is joined to it by a stiff arm. Together they \
+         weigh {} N, g = {GRAVITY} m/s2",
         number(weight)
     );
     if let Some(share) = parts.even.unbalance {
         let [share, below] = [share, share * weight].map(|x| significant(x, 5));
         text += &format!("; the unbalance of {share} of it is {below} N");
     }
-    text + ". The m2 of the springs above come besides, without weight.\n"
+    text + ". The m2 of the springs above are additional masses, without weight.\n"
 }
 
 /// What a joint is: a foot or corner by its name, the one to compare, one on a stiff arm.

@@ -44,7 +44,7 @@ use dynamics::{
 use rocking::motion::TimedPeak;
 use strong_motion::Record;
 
-/// Parts of the time over which the median is taken.
+/// At least so many parts to [`LANDING_OVER`].
 const PARTS_A_LANDING: f64 = 13.0;
 
 /// A force and its relative change with springs and mesh, over `over_s`.
@@ -68,7 +68,7 @@ pub struct StructureForce {
     pub others: OtherForces,
     /// Largest magnitude without a filter [N, N m].
     pub raw: f64,
-    /// Frequency below which it is given (Hz); none: as it is.
+    /// Frequency below which it is given (Hz); none: not filtered, of soles between landings.
     pub cutoff_hz: Option<f64>,
     /// Length of the record from its start that the peak is of (s): all of it, or as much as can be
     /// foretold.
@@ -180,7 +180,7 @@ impl StructureForces {
                     over_s: seconds,
                     whole_record: None,
                     held: None,
-                    // what is held has no soles
+                    // a structure held to the ground has no soles
                     fixed: held.get(kind).filter(|_| !of_soles).map(|peak| peak.filtered),
                     rigid: rigid.and_then(|rigid| rigid_peak(rigid, kind, record.dt)),
                 })

@@ -165,8 +165,7 @@ impl Frame {
         beam.bearing(&gather(index, q), &gather(index, v))
     }
 
-    /// What one end of beam i presses its node with, horizontally and vertically (N): upwards what
-    /// the node needs to hold it.
+    /// Force with which its node holds an end of beam i, horizontally and vertically upwards (N).
     pub(crate) fn held_at(&self, i: usize, end: usize, q: &[f64], v: &[f64]) -> [f64; 2] {
         let BeamElement { beam, index, .. } = &self.elements[i];
         let needed = beam.resistance(&gather(index, q), &gather(index, v));

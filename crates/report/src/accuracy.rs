@@ -320,7 +320,7 @@ impl AccuracyReport {
         }
         let missed = self.measured.iter().map(|row| row.missed.clone().unwrap_or("-".into()));
         let rows = rows.zip(missed).map(|(row, missed)| [row, vec![missed]].concat());
-        Table::new(head.into_iter().chain(["missed besides"])).with(rows)
+        Table::new(head.into_iter().chain(["also missed"])).with(rows)
     }
 }
 

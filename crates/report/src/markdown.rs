@@ -8,9 +8,9 @@ use files::message::{percent, quantity, significant};
 use results::{DesignForce, ForceName, OtherForces};
 
 /// What forces of the ground are.
-const OF_SOLES: &str = "those of the ground between landings: what the columns bring and the \
-    weight and inertia of the footings. The impulse that stops a landing footing is not among \
-    them: on rigid ground it has no largest force.";
+const OF_SOLES: &str = "forces of the ground are given between landings: what the columns bring \
+    and the weight and inertia of the footings. The impulse that stops a landing footing is not \
+    among them: on rigid ground it has no largest force.";
 
 /// What the mark "not predictable" of a force means.
 const ONE_OF_MANY: &str = " Not predictable: the motion up to that time is one of many alike, \

@@ -23,8 +23,8 @@ use crate::structure::Body;
 /// one to one.
 pub const ILL_CONDITIONED: f64 = 10.0;
 
-/// Relative change of a width or a restitution that no structure is known to: how far it moves a
-/// history, and changes statistics, no model can be asked to do better than.
+/// Relative change of a width or a restitution, far below what any structure is known to. No model
+/// can be asked to agree better than such a change moves a history or its statistics.
 pub const SLIGHT_CHANGE: f64 = 1e-5;
 
 /// Largest sensitivity that is told; beyond it not one digit of a history in double precision is

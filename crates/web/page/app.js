@@ -6,12 +6,12 @@ let answered = 0, since = 0;
 window.measures = { moves: [], tune: 0, memory: () => [quick?.memory ?? 0, whole?.memory ?? 0] };
 
 // another record or structure: what was asked before it is not shown any more
-function changedAll() { since = version + 1; changed(); clearAnswer(); }
+function changedAll() { since = version + 1; clearAnswer(); changed(); }
 function clearAnswer() {
   $("verdict").className = "verdict";
   $("word").textContent = "Computing ...";
   for (const id of ["sentence", "stage", "tiles", "remarks"]) $(id).replaceChildren();
-  $("asked").textContent = askedLine();
+  $("asked").textContent = missing() ? "" : askedLine();
   $("gauge-fill").style.width = "0";
 }
 function changed() {

@@ -11,7 +11,7 @@ function working(said) {
   add("Frequency parameter:", `p² = m g R / I<sub>0</sub> = ${E(m)} · 9.81 · ${E(R)} / ${E(Icg + m * R * R)} = ${E(p * p)} 1/s², p = ${E(p)} 1/s`);
   add("It lifts when the ground's acceleration passes", w.frequency_hz === undefined ? `a = g b/h${w.uplift_g > (b / h) * (1 + 1e-9) ? " (1 + T/W), T a tendon's tension and W the weight," : ""} = ${E(w.uplift_g)} g = ${E(w.uplift_g * G)} m/s²` : `a = ${E(w.uplift_g)} g for the elastic structure; the rigid body g b/h = ${E(b / h)} g`);
   add("Restitution, velocity after an impact over that before (equation 2):", `e = 1 − (m R²/I<sub>0</sub>)(1 − cos 2α) = 1 − ${E(share)} · (1 − cos ${E(2 * alpha)}) = ${E(e)}`);
-  add("Rocking between impacts (equations 1 and 3), s = sign of θ, u<sub>g</sub> the ground's acceleration:", `θ″ = −${E(p * p)} · [sin(${E(alpha)} s − θ) + (u<sub>g</sub>/9.81) cos(${E(alpha)} s − θ)]; at θ = 0: θ′ → ${E(e)} θ′`);
+  add("Rocking between impacts (equations 1 and 3), s = sign of θ, a<sub>g</sub> the ground's acceleration:", `θ″ = −${E(p * p)} · [sin(${E(alpha)} s − θ) + (a<sub>g</sub>/9.81) cos(${E(alpha)} s − θ)]; at θ = 0: θ′ → ${E(e)} θ′`);
   add("It falls when |θ| passes α and does not come back:", `α = ${E(alpha)} rad; largest found on springs: ${said.share_of_overturning === null ? "see the verdict" : `${E(100 * said.share_of_overturning, 3)} % of α = ${E(said.share_of_overturning * alpha)} rad`}`);
   const peaks = said.peaks?.with_members ?? said.peaks?.springs, reference = said.peaks?.reference;
   if (peaks && w.frequency_hz === undefined && said.does === "rocks") {

@@ -188,10 +188,15 @@ impl<'a> SapModel<'a> {
             false => "",
         };
         let housner = self.housner.and_then(|housner| housner.end).map(|end| match end {
-            HousnerEnd::Stands => "Housner's stands".to_string(),
-            HousnerEnd::Overturns(s) => format!("Housner's overturns, at {} s{}", time(s), late(s)),
+            HousnerEnd::Stands => "Housner's body stands".to_string(),
+            HousnerEnd::Overturns(s) => {
+                format!("Housner's body overturns, at {} s{}", time(s), late(s))
+            }
             HousnerEnd::LeavesGround(s) => {
-                format!("Housner's leaves the ground, at {} s, where his solution ends", time(s))
+                format!(
+                    "Housner's body leaves the ground, at {} s, where his solution ends",
+                    time(s)
+                )
             }
         });
         let overturns = |of: HousnerBeside| matches!(of.end, Some(HousnerEnd::Overturns(_)));
@@ -200,7 +205,10 @@ impl<'a> SapModel<'a> {
                 format!("The structure topples in these steps, at {} s{}", time(s), late(s))
             }
             None if self.housner.is_some_and(overturns) => {
-                "The structure does not topple in these steps".into()
+                let until = self.even.ends.gives_up_s.map_or(String::new(), |s| {
+                    format!(" up to {} s, where the emulation ends", time(s))
+                });
+                format!("The structure does not topple in these steps{until}")
             }
             None => return None,
         };

@@ -88,7 +88,7 @@ fn a_record_is_told_with_its_scale_and_a_tolerance_in_newtons() {
     let [share, below] =
         [0, 4].map(|word| told.split_whitespace().nth(word).unwrap().parse::<f64>().unwrap());
     assert!((below / (share * weight) - 1.0).abs() < 1e-4, "{told}");
-    assert!(text.contains("All weigh 4905 N"), "{text}");
+    assert!(text.contains("Together they weigh 4905 N"), "{text}");
 }
 
 /// Both tell when, and what Housner's body does.
@@ -109,7 +109,7 @@ fn a_structure_that_topples_in_these_steps_is_told() {
     for format in [DeckFormat::Markdown, DeckFormat::Sap2000Sheet] {
         let whole = told(None, format);
         let said = format!(
-            "The structure topples in these steps, at {} s; Housner's overturns, at {} s.",
+            "The structure topples in these steps, at {} s; Housner's body overturns, at {} s.",
             time(falls),
             time(overturned)
         );

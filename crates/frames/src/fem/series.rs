@@ -22,7 +22,7 @@ use rocking::scalar::GRAVITY;
 /// (tension positive), moment.
 const BASE_FORCES: usize = 3;
 
-/// A landing is over in half of it (s).
+/// Window of the median (s); a landing is over in half of it.
 pub(crate) const LANDING_OVER: f64 = 0.02;
 
 /// One force.
@@ -82,7 +82,7 @@ pub struct FineForces {
     pub columns: Vec<FineColumn>,
     /// Of the ground on all corners together, horizontally and vertically (N).
     pub sole: [FineSeries; 2],
-    /// What footings hold of columns, all together, in the same directions (N).
+    /// Forces of the footings on the columns, all together, in the same directions (N).
     pub held: [FineSeries; 2],
     /// The same at the ends of steps.
     pub held_at_steps: Vec<StepForces<2>>,
@@ -269,12 +269,14 @@ impl FineRecorder {
     }
 }
 
-/// The median of every value and so many on either side of it; of those there are at the ends.
+/// The median of every value and so many on either side of it; at the ends that of the nearest
+/// value that has as many.
 fn running_median(series: &[f64], beside: usize) -> Vec<f64> {
+    let beside = beside.min(series.len().saturating_sub(1) / 2);
     let mut window = Vec::with_capacity(2 * beside + 1);
     let median = |i: usize| {
         window.clear();
-        let beside = beside.min(i).min(series.len() - 1 - i);
+        let i = i.clamp(beside, series.len() - 1 - beside);
         window.extend_from_slice(&series[i - beside..=i + beside]);
         *window.select_nth_unstable_by(beside, f64::total_cmp).1
     };
@@ -351,7 +353,19 @@ mod tests {
     fn a_running_median_does_not_see_an_impulse() {
         let smooth = |i: usize| 5.0 + 0.1 * i as f64;
         let clean: Vec<f64> = (0..40).map(smooth).collect();
-        assert_eq!(running_median(&clean, 6), clean);
+        assert_eq!(running_median(&clean, 6)[6..34], clean[6..34]);
+        // in the last parts, too
+        let mut last = clean.clone();
+        last[36..].fill(1e9);
+        let found = running_median(&last, 6);
+        assert!(
+            found.iter().zip(&clean).all(|(found, due)| (found - due).abs() <= 0.8),
+            "{found:?}"
+        );
+        assert_eq!(
+            (running_median(&[], 6), running_median(&[1.0, 2.0], 6)),
+            (vec![], vec![1.0; 2])
+        );
         let mut struck = clean.clone();
         struck[20..25].fill(1e9);
         // the middle moves by no more than half a window of the line

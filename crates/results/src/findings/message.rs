@@ -238,7 +238,10 @@ impl Finding {
                 s(*time_s)
             ),
             Self::NearMotions { motions, change, median_ratio, p90_ratio, overturned } => {
-                let cell = |x: Option<f64>| x.map_or("overturned".into(), percent);
+                let cell = |x: Option<f64>| {
+                    let of_overturning = |x| format!("{} of overturning", percent(x));
+                    x.map_or("an overturning".into(), of_overturning)
+                };
                 let fallen = match overturned {
                     [0, 0] => String::new(),
                     [reference, springs] => {
@@ -246,8 +249,8 @@ impl Finding {
                     }
                 };
                 format!(
-                    "in {motions} motions within {} of the record the largest rotation is {} of \
-                        overturning (median), {} (90 %); on springs {}, {}{fallen}",
+                    "in {motions} motions within {} of the record the largest rotation is {} \
+                        (median), {} (90 %); on springs {}, {}{fallen}",
                     percent(*change),
                     cell(median_ratio[0]),
                     cell(p90_ratio[0]),
