@@ -364,7 +364,7 @@ mod tests {
         );
         assert_eq!(
             (running_median(&[], 6), running_median(&[1.0, 2.0], 6)),
-            (vec![], vec![1.0; 2])
+            (vec![], vec![1.0, 2.0])
         );
         let mut struck = clean.clone();
         struck[20..25].fill(1e9);
