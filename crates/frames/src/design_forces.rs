@@ -143,7 +143,8 @@ impl StructureForces {
         // all forces of all motions over the same time
         let over = |seconds: f64| -> Vec<StructureForce> {
             let peaks = of(fem, seconds);
-            let faster = ForcePeaks::below(2.0, fem, cutoff.as_ref(), seconds);
+            let faster =
+                cutoff.as_ref().map(|cutoff| ForcePeaks::below(2.0, fem, Some(cutoff), seconds));
             let peaks_of = |pick: fn(&Variants) -> Option<&ElasticHistory>| {
                 variants.as_ref().and_then(pick).map(|history| of(history, seconds))
             };
@@ -163,7 +164,10 @@ impl StructureForces {
                         .map(|finer| value(finer, kind).unwrap_or(f64::INFINITY)),
                     softer: softer.as_ref().and_then(|softer| value(softer, kind)),
                     stiffer: stiffer.as_ref().and_then(|stiffer| value(stiffer, kind)),
-                    doubled_cutoff: peak.cutoff_hz.and_then(|_| value(&faster, kind)),
+                    doubled_cutoff: peak
+                        .cutoff_hz
+                        .and(faster.as_ref())
+                        .and_then(|faster| value(faster, kind)),
                 };
                 let holds = others.change() < MOST_CHANGE;
                 let of_soles = [ForceName::SoleShear, ForceName::SoleVertical].contains(&kind);

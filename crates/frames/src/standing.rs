@@ -137,9 +137,9 @@ fn width(g: &DMatrix<f64>, corners: &[usize]) -> f64 {
     difference.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
 }
 
-/// a b, each entry summed in order. The operator's product of matrices above 5 x 5 takes the
-/// processor's widest instructions, fused ones too, and its last digits follow the machine: a page
-/// in a browser would find other ones than the program.
+/// The matrix product a b, with the terms of every entry added one after another. nalgebra's
+/// product of matrices above 5 x 5 uses fused multiply-adds where the processor has them: its last
+/// digits differ between machines, and between the program and the page in a browser.
 fn product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     let entry = |i: usize, j: usize| (0..a.ncols()).map(|k| a[(i, k)] * b[(k, j)]).sum();
     DMatrix::from_fn(a.nrows(), b.ncols(), entry)

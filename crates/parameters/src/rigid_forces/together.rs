@@ -19,7 +19,7 @@ use strong_motion::Record;
 /// Largest forces of a history, and those near its landings that its motion tells.
 pub(super) struct FoundForces<const N: usize> {
     pub peaks: [TimedPeak; N],
-    /// Each row with the index of the sample it is of, in order of time.
+    /// The index of a sample and the forces at that sample; times increase.
     pub near: Vec<(usize, GroundRow)>,
 }
 

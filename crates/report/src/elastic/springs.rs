@@ -55,9 +55,9 @@ fn accuracy(a: &ElasticAssessment, on_record: Option<&OnRecord>) -> AccuracyRepo
             worst: e.peaks.map(|peaks| worst(&peaks.median)),
             history_allowed: of_history,
             peaks_allowed: of_peaks,
-            missed: of_history
-                .and_then(|asked| missed(&e, asked))
-                .or(of_peaks.zip(e.peaks).and_then(|(asked, peaks)| missed_peaks(&peaks, asked))),
+            missed: of_history.and_then(|asked| missed(&e, asked)).or(of_peaks
+                .zip(e.peaks)
+                .and_then(|(asked, peaks)| missed_peaks(&peaks, e.count, asked))),
         })
     };
     let part = on_record.filter(|on| !on.whole).map(|on| {
@@ -88,17 +88,25 @@ fn missed(errors: &ElasticErrors, asked: f64) -> Option<String> {
     let (what, found, allowed) =
         besides.into_iter().max_by(|a, b| (a.1 / a.2).total_cmp(&(b.1 / b.2)))?;
     if found.is_infinite() {
-        return Some("of one in ten the history on springs ends early".into());
+        return Some(ends_early(errors.count));
     }
     (found > allowed && found / allowed > rotation / asked)
         .then(|| format!("{what} {}, allowed {}", significant(found, 2), significant(allowed, 2)))
 }
 
+/// What is said of an infinite error over so many histories.
+fn ends_early(count: usize) -> String {
+    match count {
+        1 => "the history on springs ends early".into(),
+        _ => "at least one in ten histories on springs ends early".into(),
+    }
+}
+
 /// The worst tenth of the peaks, where it is further above what is allowed of it than the median.
-fn missed_peaks(peaks: &ElasticPeaks, asked: f64) -> Option<String> {
+fn missed_peaks(peaks: &ElasticPeaks, count: usize, asked: f64) -> Option<String> {
     let ([median, found], allowed) = (peaks.largest, LOOSER * asked);
     if found.is_infinite() {
-        return Some("of one in ten the history on springs ends early".into());
+        return Some(ends_early(count));
     }
     (found > allowed && found / allowed > median / asked)
         .then(|| format!("90 %: peaks within {}, allowed {}", percent(found), percent(allowed)))
@@ -249,9 +257,9 @@ mod tests {
         let tenth = told([1e-3, 9e-3], [0.03, 9e-3]);
         assert_eq!(tenth.as_deref(), Some("90 %: NRMSE 0.03, allowed 0.01"));
         let early = told([1e-3, 9e-3], [f64::INFINITY, f64::INFINITY]);
-        assert_eq!(early.as_deref(), Some("of one in ten the history on springs ends early"));
+        assert_eq!(early.as_deref(), Some("at least one in ten histories on springs ends early"));
         let none = StructurePeakErrors::default();
-        let peaks = |largest| missed_peaks(&ElasticPeaks { largest, median: none }, 0.02);
+        let peaks = |largest| missed_peaks(&ElasticPeaks { largest, median: none }, 8, 0.02);
         assert_eq!(peaks([0.01, 0.09]), None);
         let tenth = peaks([0.01, 0.2]);
         assert_eq!(tenth.as_deref(), Some("90 %: peaks within 20.0 %, allowed 10.0 %"));
