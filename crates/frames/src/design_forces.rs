@@ -164,10 +164,7 @@ impl StructureForces {
                         .map(|finer| value(finer, kind).unwrap_or(f64::INFINITY)),
                     softer: softer.as_ref().and_then(|softer| value(softer, kind)),
                     stiffer: stiffer.as_ref().and_then(|stiffer| value(stiffer, kind)),
-                    doubled_cutoff: peak
-                        .cutoff_hz
-                        .and(faster.as_ref())
-                        .and_then(|faster| value(faster, kind)),
+                    doubled_cutoff: faster.as_ref().and_then(|faster| value(faster, kind)),
                 };
                 let holds = others.change() < MOST_CHANGE;
                 let of_soles = [ForceName::SoleShear, ForceName::SoleVertical].contains(&kind);
